@@ -4,6 +4,7 @@
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/ReadingAs.hpp"
 #include "ortung/formats/BearingData.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/FeatureOf.hpp"
@@ -68,6 +69,7 @@ TEST(ReadingAs, WhatALocalizationReportsIsReadToo) {
       "clusters",
       ClustersData::encode({{{0.75, {{1, 2, 0.5}, {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01}}}}}));
   expectRead<ProtectionData>("protection", ProtectionData::encode({0.25, 0.5}));
+  expectRead<ChangesData>("changes", ChangesData::encode({0.1, {{true, true, 1.0, -2.0, 3, 1}}}));
   expectRead<WorkData>("work", WorkData::encode({2'000, 150.0, 0.004, 77}));
   expectRead<SamplesData>("samples",
                           SamplesData::encode({{{{1, 2, 0.5}, 1.0}, {{3, 4, 1.5}, 0.5}}}));

@@ -33,6 +33,26 @@ TEST(Toml, BecomesParameters) {
   EXPECT_NO_THROW(p.refuseUnread());
 }
 
+TEST(Toml, LosesTablesOfArraysThatAreLeftOut) {
+  const std::string text =
+      "a = 1 # a remark\n[t]\nb = 'x'\n[[s]]\nn = 1\n[[s]]\nn = 2\nq = [[1, 2], [3]]\n[[u]]\nn = "
+      "1\n";
+  const auto one = [](const std::string&, const Parameters& table) {
+    return table.integerOr("n", 0) == 1;
+  };
+  const Parameters rest = parseToml(withoutTables(text, "x.toml", one), "rest");
+  EXPECT_EQ(rest.integer("a"), 1);
+  EXPECT_EQ(rest.table("t").text("b"), "x");
+  ASSERT_EQ(rest.tables("s").size(), 1U);
+  EXPECT_EQ(rest.tables("s")[0].integer("n"), 2);
+  EXPECT_FALSE(rest.has("u")) << "nothing is left of it";
+  const auto ofU = [](const std::string& key, const Parameters&) { return key == "u"; };
+  EXPECT_EQ(parseToml(withoutTables(text, "x.toml", ofU), "rest").tables("s").size(), 2U);
+  EXPECT_EQ(complaint([&] { withoutTables("a = 2024-01-02\n", "x.toml", one); }),
+            "x.toml:1: dates and times are not used here");
+  EXPECT_TRUE(complaint([&] { withoutTables("a = \n", "x.toml", one); }).starts_with("x.toml:1: "));
+}
+
 TEST(Toml, ErrorsNameTheLine) {
   const Parameters p =
       parseToml("# one\n[t]\n  fov_deg = 400\n\n[[s]]\nn = 'x'\n", "robots/a.toml");

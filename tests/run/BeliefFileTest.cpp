@@ -4,6 +4,9 @@
 
 #include "RoomRun.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/records/RecordWriter.hpp"
+#include "ortung/run/FoundChanges.hpp"
+#include "ortung/run/Published.hpp"
 #include "ortung/tables/TableFile.hpp"
 
 namespace ortung::test {
@@ -123,6 +126,91 @@ TEST_F(Kept, ABeliefGoesOnAfterARestart) {
     restored.update();
     EXPECT_LT(distance(restored.mcl().estimate().pose, place), 0.15) << i;
   }
+}
+
+MapChanges changed() {
+  using Kind = MapChange::Kind;
+  MapChanges changes;
+  for (std::int32_t k = 0; k < 4; ++k)
+    changes.cells.push_back({Kind::kGone, k, -3, 0.1 * k + 0.03, -0.27, 4, 3, 1, 2, 19'000, true});
+  changes.cells.push_back({Kind::kNew, 7, 2, 0.75, 0.25, 1, 1, 0, 1, -2});
+  return changes;
+}
+
+/// Writes a belief with changes of the map.
+void writeWith(const std::filesystem::path& file, const std::vector<std::int32_t>& numbers,
+               const std::vector<double>& middles) {
+  const MadeBelief made;
+  TableWriter writer(file);
+  writer.add<float>("x", {2}, made.x);
+  writer.add<float>("y", {2}, made.y);
+  writer.add<float>("theta", {2}, made.theta);
+  writer.add<float>("logWeight", {2}, made.logWeight);
+  writer.add<double>("stamp_us", {1}, std::span(&made.stamp, 1));
+  writer.add<std::int32_t>("changes", {numbers.size() / 9, 9}, numbers);
+  writer.add<double>("changes_m", {middles.size() / 2, 2}, middles);
+  writer.addText("world.txt", made.world);
+  writer.commit();
+}
+
+TEST_F(Kept, WhatHasChangedInTheWorldGoesOnAfterARestart) {
+  std::vector<std::int32_t> numbers;
+  std::vector<double> middles;
+  for (const MapChange& one : changed().cells) {
+    const auto number = [](auto value) { return static_cast<std::int32_t>(value); };
+    numbers.insert(numbers.end(), {number(one.kind), one.column, one.row, number(one.passes),
+                                   number(one.lately), number(one.against), number(one.days),
+                                   number(one.lastDay), number(one.isSure)});
+    middles.insert(middles.end(), {one.x, one.y});
+  }
+  writeWith(folder / "belief", numbers, middles);
+  Localization localization(config());
+  localization.restoreBelief(folder / "belief");
+  EXPECT_EQ(localization.mcl().mapChanges().cells, changed().cells);
+  const auto file = folder / "again";
+  localization.saveBelief(file);
+  Localization restored(config());
+  restored.restoreBelief(file);
+  EXPECT_EQ(restored.mcl().mapChanges().cells, changed().cells);
+  const FoundChanges found = readFoundChanges(file);
+  EXPECT_EQ(found.worldFingerprint, "room-1");
+  ASSERT_EQ(found.changes.cells.size(), 5U);
+  EXPECT_EQ(found.changes.cells[1], (ChangesData::Cell{false, true, 0.13, -0.27, 4, 1}));
+}
+
+TEST_F(Kept, WhatARecordTellsOfItLastIsFound) {
+  const auto file = folder / "told.rec";
+  RecordWriter writer(file, "room-1");
+  writer.write(changesMessage(1'000, {}));
+  writer.write(changesMessage(2'000, changed()));
+  writer.write({3'000, {"a", "b", "c"}, {1}});
+  writer.commit();
+  EXPECT_EQ(readFoundChanges(file).changes.cells.size(), 5U);
+  EXPECT_EQ(readFoundChanges(file).worldFingerprint, "room-1");
+  EXPECT_EQ(messageOf<std::runtime_error>([&] { readFoundChanges(recordFile); }),
+            recordFile.string() +
+                ": has no reading of mcl/LOCALIZATION/map, expected a record of a localization");
+  EXPECT_THROW(readFoundChanges(folder / "none"), std::runtime_error);
+}
+
+TEST_F(Kept, ChangesThatCantBeAreRefused) {
+  const auto refusal = [&](const std::vector<std::int32_t>& numbers,
+                           const std::vector<double>& middles) {
+    writeWith(folder / "belief", numbers, middles);
+    Localization localization(config());
+    const std::string why =
+        messageOf<TableError>([&] { localization.restoreBelief(folder / "belief"); });
+    EXPECT_TRUE(localization.mcl().mapChanges().cells.empty());
+    return why;
+  };
+  const std::string name = (folder / "belief").string();
+  EXPECT_EQ(refusal({2, 1, 1, 1, 1, 0, 1, 0, 0}, {0.15, 0.15}),
+            name + ": changed cell 0 has the kind 2, expected 0 or 1");
+  EXPECT_EQ(refusal({1, 1, 1, -1, 1, 0, 1, 0, 0}, {0.15, 0.15}),
+            name + ": changed cell 0 has the count -1, expected at least 0");
+  EXPECT_EQ(refusal({1, 1, 1, 1, 1, 0, 1, 0, 0}, {0.35, 0.15}),
+            name + ": changed cell 0 has its middle elsewhere");
+  EXPECT_NE(refusal({1, 1, 1, 1, 1, 0, 1, 0, 0}, {}).find("changes_m"), std::string::npos);
 }
 
 TEST_F(Kept, ItIsWidenedByTheStatedSigmasSinceTheRobotMayHaveBeenPushed) {

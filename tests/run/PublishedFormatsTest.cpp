@@ -7,6 +7,7 @@
 
 #include "Files.hpp"
 #include "RoomRun.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/ProtectionData.hpp"
@@ -83,6 +84,58 @@ TEST(ClustersData, HasTheWordsThatTheProtocolStates) {
   EXPECT_NEAR(data.reading()[0].fix.pose.y, -2.0, 1e-9);
   EXPECT_NEAR(data.reading()[0].fix.covariance[4], 0.04, 1e-6);
   EXPECT_FALSE(data.localizes());
+}
+
+TEST(ChangesData, HasTheWordsThatTheProtocolStates) {
+  using Kind = MapChange::Kind;
+  MapChanges changes;
+  changes.cells = {{Kind::kGone, 10, -21, 1.025, -2.05, 3, 1, 2, 1, 19'000, false},
+                   {Kind::kNew, -1, 0, -0.05, 0.075, 7, 7, 0, 3, 19'000, true}};
+  const Message message = changesMessage(9, changes);
+  EXPECT_EQ(message.stamp, 9);
+  EXPECT_EQ(toText(message.id), "mcl/LOCALIZATION/map");
+  constexpr std::uint32_t kZero = 1U << 31;
+  EXPECT_EQ(message.words, (std::vector<std::uint32_t>{100,  // what is sure comes first
+                                                       1, 1, kZero - 50, kZero + 75, 7, 0,  //
+                                                       0, 0, kZero + 1025, kZero - 2050, 3, 2}));
+  ChangesData data;
+  data.setData(9, message.words);
+  const ChangesData::Reading reading = data.reading();
+  EXPECT_NEAR(reading.cell, 0.1, 1e-12);
+  ASSERT_EQ(reading.cells.size(), 2U);
+  EXPECT_TRUE(reading.cells[0].isNew && reading.cells[0].isSure);
+  EXPECT_FALSE(reading.cells[1].isNew || reading.cells[1].isSure);
+  EXPECT_NEAR(reading.cells[1].x, 1.025, 1e-9);
+  EXPECT_EQ(reading.cells[1].passes, 3U);
+  EXPECT_EQ(reading.cells[1].against, 2U);
+  EXPECT_FALSE(data.localizes());
+}
+
+TEST(ChangesData, OfManyTellsThoseThatAreSure) {
+  MapChanges changes;
+  for (std::int32_t k = 0; k < 6'000; ++k)
+    changes.cells.push_back(
+        {MapChange::Kind::kNew, k, 0, 0.1 * k + 0.05, 0.05, 1, 1, 0, 1, 0, k >= 5'500});
+  ChangesData data;
+  data.setData(0, changesMessage(0, changes).words);
+  ASSERT_EQ(data.reading().cells.size(), ChangesData::kMostCells);
+  for (std::size_t k = 0; k < ChangesData::kMostCells; ++k)
+    ASSERT_EQ(data.reading().cells[k].isSure, k < 500);
+}
+
+TEST(ChangesData, RefusesOtherWords) {
+  ChangesData data;
+  const auto refusal = [&data](const std::vector<std::uint32_t>& words) {
+    return messageOf<std::invalid_argument>([&] { data.checkData(words); });
+  };
+  EXPECT_NO_THROW(data.checkData(std::vector<std::uint32_t>{100}));
+  EXPECT_NE(refusal({}).find("expected the edge of a cell first"), std::string::npos);
+  EXPECT_NE(refusal({0}).find("found cells of 0 mm"), std::string::npos);
+  EXPECT_NE(refusal({100, 1}).find("six a cell and at most 5000 cells"), std::string::npos);
+  EXPECT_NE(refusal({100, 2, 0, 1, 1, 1, 0}).find("kind of change 2"), std::string::npos);
+  EXPECT_NE(refusal({100, 1, 2, 1, 1, 1, 0}).find("sign of being sure 2"), std::string::npos);
+  std::vector<std::uint32_t> many(1 + 6 * 5'001, 1);
+  EXPECT_NE(refusal(many).find("at most 5000 cells"), std::string::npos);
 }
 
 TEST(SmoothPose, IsAPoseOfItsOwn) {

@@ -88,6 +88,10 @@ MapChanges changesIn(const TableFile& file) {
     const auto at = [&](std::size_t k) { return numbers[i + k]; };
     const auto count = [&](std::size_t k) { return static_cast<std::uint32_t>(at(k)); };
     const double* middle = middles.data() + 2 * (i / kNumbers);
+    for (std::size_t k = 3; k < 7; ++k)
+      if (at(k) < 0)
+        refuse("changed cell " + std::to_string(i / kNumbers) + " has the count " +
+               std::to_string(at(k)) + ", expected at least 0");
     if (at(0) < 0 || at(0) > 1)
       refuse("changed cell " + std::to_string(i / kNumbers) + " has the kind " +
              std::to_string(at(0)) + ", expected 0 or 1");

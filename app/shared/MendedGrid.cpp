@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace ortung::app {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kAround = 0.15;
 constexpr double kLargestRest = 3.0;  ///< greatest extent of a rest that is looked at [m]
 constexpr double kMostOpen = 0.5;     ///< share of a rest's border beyond which it is gone, too
+
+constexpr int kThinnings = 2;
 
 /// A cell of the grid, or one beside it.
 struct Place {
@@ -126,6 +129,37 @@ class Mending {
   MendedCells counts_;
 };
 
+/// Calls use(other) for the others within a distance [m]. @pre cells are sorted by x
+template <class Use>
+void forEachNear(const std::vector<ChangesData::Cell>& cells, std::size_t of, double distance,
+                 const Use& use) {
+  const auto look = [&](std::size_t other) {
+    if (std::abs(cells[other].x - cells[of].x) > distance) return false;
+    if (std::hypot(cells[other].x - cells[of].x, cells[other].y - cells[of].y) <= distance)
+      use(cells[other]);
+    return true;
+  };
+  for (std::size_t other = of; other-- > 0 && look(other);) continue;
+  for (std::size_t other = of + 1; other < cells.size() && look(other); ++other) continue;
+}
+
+/// Moves each place to the middle of those around it, since noise lets a thin wall end beams in
+/// cells beside each other. @returns them sorted by x
+std::vector<ChangesData::Cell> thinned(std::vector<ChangesData::Cell> cells, double around) {
+  std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  std::vector<ChangesData::Cell> middles = cells;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    double count = 1.0;
+    forEachNear(cells, i, around, [&](const ChangesData::Cell& other) {
+      count += 1.0;
+      middles[i].x += (other.x - middles[i].x) / count;
+      middles[i].y += (other.y - middles[i].y) / count;
+    });
+  }
+  std::sort(middles.begin(), middles.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  return middles;
+}
+
 /// Occupies the line between two places that were found next to each other.
 void join(const ChangesData::Cell& from, const ChangesData::Cell& to, double step,
           Mending& mending) {
@@ -152,12 +186,12 @@ MendedCells mend(const ChangesData::Reading& changes, WorldGrid& grid) {
   }
   mending.freeRests();
   const double near = kNeighbours * changes.cell;
-  std::sort(fresh.begin(), fresh.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  for (int k = 0; k < kThinnings; ++k) fresh = thinned(std::move(fresh), near);
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     mending.occupy(fresh[i].x, fresh[i].y);
-    for (std::size_t j = i + 1; j < fresh.size() && fresh[j].x - fresh[i].x <= near; ++j)
-      if (std::hypot(fresh[j].x - fresh[i].x, fresh[j].y - fresh[i].y) <= near)
-        join(fresh[i], fresh[j], 0.5 * grid.cell, mending);
+    forEachNear(fresh, i, near, [&](const ChangesData::Cell& other) {
+      join(fresh[i], other, 0.5 * grid.cell, mending);
+    });
   }
   return mending.counts();
 }
