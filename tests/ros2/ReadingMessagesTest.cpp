@@ -138,10 +138,11 @@ TEST_F(ReadingMessages, NamesAreThoseThatRosAllows) {
   container_.add(std::make_unique<OdometryData>(kWheels));
   container_.add(std::make_unique<OdometryData>(kSecondWheels));
   const RobotTopics topics(container_, {});
-  EXPECT_EQ(namesOf(topics), (std::vector<std::string>{
-                                 "/tf_static", "/map", "/tf", "/scan/front_laser/scan",
-                                 "/scan/n2nd/scan", "/odom", "/odom/visual/pose", "/ground_truth",
-                                 "/pose", "/smooth_pose", "/diagnostics", "/particle_cloud"}));
+  EXPECT_EQ(namesOf(topics),
+            (std::vector<std::string>{"/tf_static", "/map", "/tf", "/scan/front_laser/scan",
+                                      "/scan/n2nd/scan", "/odom", "/odom/visual/pose",
+                                      "/ground_truth", "/pose", "/smooth_pose", "/diagnostics",
+                                      "/map_changes", "/particle_cloud"}));
   const auto& all = topics.topics();
   EXPECT_TRUE(all[0].isLatched);
   EXPECT_TRUE(all[1].isLatched);
@@ -155,11 +156,11 @@ TEST_F(ReadingMessages, ARobotsNameStandsBeforeWhatIsItsOwn) {
   addScan(kLaser, {0.5, 0, 0});
   container_.add(std::make_unique<OdometryData>(kWheels));
   RobotTopics topics(container_, {.robot = "my robot"});
-  EXPECT_EQ(
-      namesOf(topics),
-      (std::vector<std::string>{"/tf_static", "/map", "/tf", "/my_robot/scan", "/my_robot/odom",
-                                "/my_robot/ground_truth", "/my_robot/pose", "/my_robot/smooth_pose",
-                                "/diagnostics", "/my_robot/particle_cloud"}));
+  EXPECT_EQ(namesOf(topics),
+            (std::vector<std::string>{"/tf_static", "/map", "/tf", "/my_robot/scan",
+                                      "/my_robot/odom", "/my_robot/ground_truth", "/my_robot/pose",
+                                      "/my_robot/smooth_pose", "/diagnostics",
+                                      "/my_robot/map_changes", "/my_robot/particle_cloud"}));
   auto found = told(topics, {{0, kWheels, OdometryData::encode({})}});
   const auto odometry = read<Odometry>(found.at("/my_robot/odom"));
   EXPECT_EQ(odometry.header.frame, "my_robot/odom");

@@ -8,6 +8,7 @@
 
 #include "../support/Radar.hpp"
 #include "ToldTopics.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -110,6 +111,28 @@ TEST_F(RobotTopicsTest, TheSmoothPoseIsInTheMap) {
   EXPECT_NEAR(toPose2(pose.pose).x, 1.5, 1e-9);
   EXPECT_NEAR(toPose2(pose.pose).theta, kPi / 2, 1e-4);
   EXPECT_FALSE(found["/ortung/mcl/LOCALIZATION/smooth"].empty());
+}
+
+TEST_F(RobotTopicsTest, WhereTheMapNoLongerFitsIsAGridOfItsOwn) {
+  RobotTopics topics(container_, {});
+  const auto gridOf = [&](const std::vector<ChangesData::Cell>& cells) {
+    auto found = told(topics, {ChangesData::message(0, {0.1, cells})});
+    EXPECT_FALSE(found["/ortung/mcl/LOCALIZATION/map"].empty());
+    return read<OccupancyGrid>(found["/map_changes"]);
+  };
+  const OccupancyGrid grid = gridOf({{false, true, 1.02, -0.98, 2, 0},
+                                     {true, true, 1.25, -0.75, 3, 1},
+                                     {true, false, 7.0, 7.0, 1, 0}});
+  EXPECT_EQ(grid.header.frame, "map");
+  EXPECT_FLOAT_EQ(grid.resolution, 0.1F);
+  EXPECT_NEAR(grid.origin.position.x, 1.0, 1e-9);
+  EXPECT_NEAR(grid.origin.position.y, -1.0, 1e-9);
+  ASSERT_EQ(grid.width, 3U);
+  ASSERT_EQ(grid.height, 3U);
+  EXPECT_EQ(grid.data, (std::vector<std::int8_t>{0, -1, -1, -1, -1, -1, -1, -1, 100}));
+  EXPECT_EQ(gridOf({}).data, (std::vector<std::int8_t>{-1})) << "viewers want a cell";
+  EXPECT_THROW(gridOf({{true, true, -1e4, 0.0, 2, 0}, {true, true, 1e4, 1e4, 2, 0}}),
+               std::invalid_argument);
 }
 
 TEST_F(RobotTopicsTest, SamplesArePosesInTheMap) {

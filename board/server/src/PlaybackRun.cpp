@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "Request.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
@@ -41,6 +42,7 @@ ServedFeature featureOf(const SensorId& id) {
   if (id == SensorId{"mcl", "LOCALIZATION", "smooth"}) return served(PoseData(id));
   if (const TrackData track; track.id() == id) return served(track);
   if (const ProtectionData bound; bound.id() == id) return served(bound);
+  if (const ChangesData changes; changes.id() == id) return served(changes);
   if (const ClustersData clusters; clusters.id() == id) return served(clusters);
   if (const WorkData work; work.id() == id) return served(work);
   if (const SamplesData samples; samples.id() == id) return served(samples);

@@ -1,5 +1,6 @@
 #include "ReadingMessages.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +10,7 @@
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/camera/ImageData.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/formats/Words.hpp"
@@ -149,6 +151,45 @@ PoseArray samplesMessage(const Message& reading, Header header) {
     out.poses.push_back(fromPose2({words::toSignedMetres(reading.words[i]),
                                    words::toSignedMetres(reading.words[i + 1]),
                                    radians(reading.words[i + 2] % words::kAngles / 100.0)}));
+  return out;
+}
+
+OccupancyGrid changesMessage(const Message& reading, Header header) {
+  constexpr double kMostCells = 1U << 24;
+  ChangesData data;
+  data.setData(reading.stamp, reading.words);
+  const ChangesData::Reading changes = data.reading();
+  const auto numberOf = [&](double at) { return std::floor(at / changes.cell); };
+  double left = std::numeric_limits<double>::infinity();
+  double bottom = left;
+  double right = -left;
+  double top = -left;
+  for (const ChangesData::Cell& one : changes.cells) {
+    if (!one.isSure) continue;
+    left = std::min(left, numberOf(one.x));
+    right = std::max(right, numberOf(one.x));
+    bottom = std::min(bottom, numberOf(one.y));
+    top = std::max(top, numberOf(one.y));
+  }
+  if (left > right) left = right = bottom = top = 0.0;  // viewers want one cell at least
+  const double columns = right - left + 1.0;
+  const double rows = top - bottom + 1.0;
+  if (columns * rows > kMostCells)
+    throw std::invalid_argument(toText(reading.id) + ": what has changed is " +
+                                numberText(columns) + " x " + numberText(rows) +
+                                " cells wide, expected at most 2^24");
+  OccupancyGrid out;
+  out.header = std::move(header);
+  out.mapLoadTime = out.header.stamp;
+  out.resolution = static_cast<float>(changes.cell);
+  out.width = static_cast<std::uint32_t>(columns);
+  out.height = static_cast<std::uint32_t>(rows);
+  out.origin = fromPose2({left * changes.cell, bottom * changes.cell, 0.0});
+  out.data.assign(static_cast<std::size_t>(columns * rows), std::int8_t{-1});
+  for (const ChangesData::Cell& one : changes.cells)
+    if (one.isSure)
+      out.data[static_cast<std::size_t>((numberOf(one.y) - bottom) * columns + numberOf(one.x) -
+                                        left)] = one.isNew ? 100 : 0;
   return out;
 }
 

@@ -27,6 +27,7 @@ const SensorId kSamples{"mcl", "LOCALIZATION", "samples"};
 const SensorId kSmooth{"mcl", "LOCALIZATION", "smooth"};
 const SensorId kTrack{"mcl", "LOCALIZATION", "status"};
 const SensorId kProtection{"mcl", "LOCALIZATION", "protection"};
+const SensorId kChanges{"mcl", "LOCALIZATION", "map"};
 
 /// Part of a name as ROS has them: letters, digits and '_', no digit first.
 std::string cleaned(const std::string& name) {
@@ -62,7 +63,7 @@ struct RobotTopics::Parts {
   std::set<std::string> names;
   std::map<std::string, Route> routes;  ///< by feature
   std::size_t tf = 0, tfStatic = 0, map = 0, pose = 0, smooth = 0, samples = 0, truth = 0,
-              diagnostics = 0;
+              diagnostics = 0, changes = 0;
   std::string part;      ///< name of the localization, for diagnostics
   std::string odometry;  ///< the feature that the frame of odometry is of; "": none
   std::optional<Pose2> inOdometry, newTruth, newEstimate;
@@ -175,6 +176,7 @@ RobotTopics::RobotTopics(const SensorContainer& container, const Options& option
                       toText(kEstimate));
   p.smooth = p.addTopic(p.topicStart + "/smooth_pose", PoseStamped::kType);
   p.diagnostics = p.addTopic("/diagnostics", DiagnosticArray::kType);
+  p.changes = p.addTopic(p.topicStart + "/map_changes", OccupancyGrid::kType, true);
   p.samples = p.addTopic(p.topicStart + "/particle_cloud", PoseArray::kType);
 }
 
@@ -189,6 +191,7 @@ std::vector<std::string> RobotTopics::featuresOf(std::size_t topic) const {
   if (topic == p.truth) return {kTruths};
   if (topic == p.samples) return {toText(kSamples)};
   if (topic == p.smooth) return {toText(kSmooth)};
+  if (topic == p.changes) return {toText(kChanges)};
   if (topic == p.diagnostics) return {toText(kTrack), toText(kProtection)};
   if (topic == p.tf) {
     std::vector<std::string> features{kTruths, toText(kEstimate)};
@@ -244,6 +247,9 @@ void RobotTopics::Parts::noteTrust(const Message& message, const Sink& sink) {
     data.setData(message.stamp, message.words);
     const Header inMap{rosTime(message.stamp), kMap};
     sink(smooth, message.stamp, toCdr(PoseStamped{inMap, fromPose2(data.reading())}));
+  } else if (message.id == kChanges) {
+    const Header inMap{rosTime(message.stamp), kMap};
+    sink(changes, message.stamp, toCdr(changesMessage(message, inMap)));
   } else if (message.id == kTrack) {
     TrackData track;
     track.setData(message.stamp, message.words);

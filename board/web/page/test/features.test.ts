@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Rays } from "../src/field/rays";
 import { kLayerNames, type Layers } from "../src/ui/layers";
-import { fixOf, pictureOf, placesOf, protectionOf, statusOf } from "../src/model/decode";
+import { changesOf, fixOf, pictureOf, placesOf, protectionOf, statusOf } from "../src/model/decode";
 import { parseFormat } from "../src/model/Format";
 import { kindOf, type Kind } from "../src/model/kinds";
 import { Robot } from "../src/model/Robot";
@@ -34,6 +34,7 @@ const kFormats: [string, object][] = [
   [kTrack, { name: "track", status: ["tracking", "uncertain", "lost"] }],
   ["clusters", { name: "clusters" }],
   ["protection", { name: "protection" }],
+  ["changes", { name: "changes" }],
   ["work", { name: "work" }],
   ["samples", { name: "samples" }],
   ["device status=opening,absent", { name: "device", status: ["opening", "absent"] }],
@@ -212,6 +213,26 @@ describe("readings of features", () => {
     expect(fix).toMatchObject({ x: 0, theta: 0, sigmaX: 0.2, sigmaY: 0.1 });
     expect(fix.xy).toBeCloseTo(0.5 * 0.2 * 0.1);
     expect(placesOf(new Uint32Array([6000, kMiddle, kMiddle, 18000, 1, 1, 1, 10000, 10000, 10000, 5]))).toHaveLength(1);
+  });
+
+  it("say where the map no longer fits", () => {
+    const changes = kinded("changes");
+    const words = new Uint32Array([100, 0, 1, 2 ** 31 + 1500, 2 ** 31 - 250, 3, 1, 1, 1, 2 ** 31, 2 ** 31, 2, 0, 1, 0, 2 ** 31, 2 ** 31, 1, 0]);
+    expect(changesOf(words)).toEqual({
+      cell: 0.1,
+      cells: [
+        { x: 1.5, y: -0.25, isNew: false, isSure: true, passes: 3 },
+        { x: 0, y: 0, isNew: true, isSure: true, passes: 2 },
+        { x: 0, y: 0, isNew: true, isSure: false, passes: 1 },
+      ],
+    });
+    expect(valuesOf(changes, words)).toMatchObject([
+      { name: "walls gone", value: 1 },
+      { name: "new", value: 1 },
+    ]);
+    expect(summary(changes, words)).toBe("1 cells of walls gone, 1 new, 1 not sure");
+    expect(summary(changes, new Uint32Array([100]))).toBe("nothing");
+    expect(changesOf(new Uint32Array())).toBeNull();
   });
 
   it("bound the error, or say that nothing does", () => {

@@ -1,5 +1,5 @@
 import type { Board, MovableState } from "../model/Board";
-import { placesOf, type Protection } from "../model/decode";
+import { changesOf, placesOf, type Protection } from "../model/decode";
 import { degrees, ellipseOf, type Pose } from "../model/geometry";
 import type { Robot } from "../model/Robot";
 import type { MovableKind, Outline } from "../model/world";
@@ -21,6 +21,7 @@ interface Drawn {
 /** Robots, ball, lines, estimates as SVG: what has a name, for eyes, hands and screen readers. */
 export class Scene {
   private readonly ground: SVGGElement;
+  private readonly changes: SVGGElement;
   private readonly trails: SVGGElement;
   private readonly beliefs: SVGGElement;
   private readonly movers: SVGGElement;
@@ -28,6 +29,8 @@ export class Scene {
   private readonly robots = new Map<number, Drawn>();
   private readonly objects = new Map<string, Drawn>();
   private scene = -1;
+  /** The words that the changes were drawn from. */
+  private drawn: Uint32Array | null = null;
 
   constructor(
     readonly svg: SVGSVGElement,
@@ -35,6 +38,7 @@ export class Scene {
   ) {
     svg.replaceChildren();
     this.ground = make("g", { "aria-hidden": "true" }, svg);
+    this.changes = make("g", { "aria-hidden": "true" }, svg);
     this.trails = make("g", { "aria-hidden": "true" }, svg);
     this.beliefs = make("g", { "aria-hidden": "true" }, svg);
     this.movers = make("g", {}, svg);
@@ -44,9 +48,10 @@ export class Scene {
   draw(view: View, layers: Layers, held: Map<string, Pose>): void {
     const { board } = this;
     if (this.scene !== board.scene) this.rebuild();
-    for (const group of [this.ground, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
+    for (const group of [this.ground, this.changes, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
     for (const robot of board.robots.values()) this.drawRobot(robot, view, layers, held.get(`robot=${robot.number}`));
     for (const object of board.objects) this.drawObject(object, view, held.get(`object=${object.name}`));
+    this.drawChanges(layers);
     this.drawBeliefs(view, layers);
     set(this.labels, "visibility", layers.names ? "visible" : "hidden");
     set(this.trails, "visibility", layers.trails ? "visible" : "hidden");
@@ -162,6 +167,22 @@ export class Scene {
     const height = Math.max(0, object.z);
     const body = drawn.group.lastElementChild!;
     set(body, "r", fixed(Math.max(radius * (1 + Math.min(1.5, height)), 3 / view.scale)));
+  }
+
+  /** Squares where the selected robot is sure that the map no longer fits; they change seldom. */
+  private drawChanges(layers: Layers): void {
+    const words = (layers.changes && this.board.robot?.heldOf("changes")?.words) || null;
+    if (words === this.drawn) return;
+    this.drawn = words;
+    this.changes.replaceChildren();
+    const found = words && changesOf(words);
+    if (!found) return;
+    const side = fixed(found.cell);
+    for (const isNew of [false, true]) {
+      const cells = found.cells.filter((cell) => cell.isSure && cell.isNew === isNew);
+      const squares = cells.map(({ x, y }) => `M${fixed(x - found.cell / 2)} ${fixed(y - found.cell / 2)}h${side}v${side}h-${side}z`);
+      if (squares.length) make("path", { d: squares.join(""), class: isNew ? "fresh" : "gone" }, this.changes);
+    }
   }
 
   private drawBeliefs(view: View, layers: Layers): void {

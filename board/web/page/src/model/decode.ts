@@ -58,6 +58,35 @@ export function protectionOf(words: Uint32Array): Protection | null {
   return { metres: boundOf(words[0]!, 1e-6), radians: boundOf(words[1]!, radians(1e-4)) };
 }
 
+/** A cell where readings contradict the map. */
+export interface Change {
+  x: number;
+  y: number;
+  isNew: boolean;
+  isSure: boolean;
+  passes: number;
+}
+
+/** Cells where the map no longer fits, and their edge [m]. */
+export interface Changes {
+  cell: number;
+  cells: Change[];
+}
+
+export function changesOf(words: Uint32Array): Changes | null {
+  if (!words.length) return null;
+  const cells: Change[] = [];
+  for (let at = 1; at + 6 <= words.length; at += 6)
+    cells.push({
+      x: lengthOf(words[at + 2]!),
+      y: lengthOf(words[at + 3]!),
+      isNew: words[at] === 1,
+      isSure: words[at + 1] === 1,
+      passes: words[at + 4]!,
+    });
+  return { cell: words[0]! / 1000, cells };
+}
+
 export interface Status {
   status: string;
   reason: string;

@@ -21,7 +21,7 @@ export type Kind =
   | { name: "track"; status: string[]; reason: string[]; cause: string[] }
   | { name: "device"; status: string[] }
   | Rows
-  | { name: "obstacles" | "pose" | "fix" | "odometry" | "image" | "clusters" | "protection" | "work" | "samples" | "other" };
+  | { name: "obstacles" | "pose" | "fix" | "odometry" | "image" | "clusters" | "protection" | "changes" | "work" | "samples" | "other" };
 
 /** The container's own formats whose words are rows. */
 const kOwnRows: Record<Exclude<Rows["of"], "">, readonly Meaning[]> = {
@@ -66,6 +66,7 @@ export function kindOf(format: Format | null): Kind {
     case "image":
     case "clusters":
     case "protection":
+    case "changes":
     case "work":
     case "samples":
       return { name };

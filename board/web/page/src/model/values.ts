@@ -1,4 +1,4 @@
-import { fixOf, kMiddle, lengthOf, pictureOf, placesOf, poseOf, protectionOf, statusOf, type Protection } from "./decode";
+import { changesOf, fixOf, kMiddle, lengthOf, pictureOf, placesOf, poseOf, protectionOf, statusOf, type Protection } from "./decode";
 import { degrees } from "./geometry";
 import type { Kind, Rows } from "./kinds";
 import { rowsOf, type Row } from "./rows";
@@ -32,6 +32,10 @@ export function valuesOf(kind: Kind, words: Uint32Array, most = 64): Value[] {
       const bound = protectionOf(words);
       if (!bound || !Number.isFinite(bound.metres)) return [];
       return [{ name: "radius", value: bound.metres, unit: "m" }, { name: "angle", value: degrees(bound.radians), unit: "°" }];
+    }
+    case "changes": {
+      const counts = changeCounts(words);
+      return [{ name: "walls gone", value: counts.gone, unit: "cells" }, { name: "new", value: counts.fresh, unit: "cells" }];
     }
     case "work":
       if (words.length < 4) return [];
@@ -147,11 +151,23 @@ export function summary(kind: Kind, words: Uint32Array): string {
       const bound = protectionOf(words);
       return bound ? boundText(bound) : "-";
     }
+    case "changes": {
+      const { gone, fresh, unsure } = changeCounts(words);
+      return gone + fresh + unsure ? `${gone} cells of walls gone, ${fresh} new, ${unsure} not sure` : "nothing";
+    }
     case "rows":
       return rowSummary(kind, words);
     default:
       return words.length ? plainSummary(kind, words) : "nothing in sight";
   }
+}
+
+/** How many cells of the map no longer fit, for sure or not. */
+function changeCounts(words: Uint32Array): { gone: number; fresh: number; unsure: number } {
+  const cells = changesOf(words)?.cells ?? [];
+  const sure = cells.filter(({ isSure }) => isSure);
+  const fresh = sure.filter(({ isNew }) => isNew).length;
+  return { gone: sure.length - fresh, fresh, unsure: cells.length - sure.length };
 }
 
 /** A bound of an error, for people. */

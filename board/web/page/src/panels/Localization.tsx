@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { useBoard, usePage } from "../ui/context";
 import { kOpaque, paintHeat } from "../field/HeatLayer";
 import { fixOf, placesOf } from "../model/decode";
-import { boundText } from "../model/values";
+import { boundText, summary } from "../model/values";
 import { degrees, radians, wrap } from "../model/geometry";
 import type { FeatureMap, Why } from "../model/Insight";
 import { kEstimate, type Robot } from "../model/Robot";
@@ -73,12 +73,15 @@ function FilterSection({ robot }: { robot: Robot }) {
 
 const kAboutBound = "The error exceeds it once in a thousand while tracking, once in a hundred while uncertain.";
 
+const kAboutChanges = "Where readings find something else than the map says; cells are sure after two passes.";
+
 function BeliefSection({ robot }: { robot: Robot }) {
   const pose = robot.readings.get(kEstimate);
   const fix = pose && fixOf(pose.words);
   const truth = pose && robot.truthAt(pose.stamp);
   const { status, protection: bound } = robot;
   const work = robot.heldOf("work")?.words;
+  const changes = robot.heldOf("changes");
   const places = robot.heldOf("clusters");
   const { session, ui } = usePage();
   const workName = robot.featureOf("work")?.name ?? "";
@@ -102,6 +105,12 @@ function BeliefSection({ robot }: { robot: Robot }) {
           <>
             <dt>bound</dt>
             <dd title={kAboutBound}>{boundText(bound)}</dd>
+          </>
+        )}
+        {changes && changes.words.length > 1 && (
+          <>
+            <dt>changes</dt>
+            <dd title={kAboutChanges}>{summary({ name: "changes" }, changes.words)}</dd>
           </>
         )}
         {!!status?.relocalizations && (

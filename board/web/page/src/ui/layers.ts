@@ -7,6 +7,7 @@ export interface Layers {
   expected: boolean;
   samples: boolean;
   places: boolean;
+  changes: boolean;
   bound: boolean;
   estimate: boolean;
   ghost: boolean;
@@ -20,6 +21,7 @@ export const kLayers: Record<keyof Layers, { label: string; about: string; on: b
   expected: { label: "expected", about: "what the features should read where the robot is", on: false },
   samples: { label: "samples", about: "samples of the filter, as arrows by their weight", on: true },
   places: { label: "places", about: "clusters of samples, as ellipses of two sigmas", on: true },
+  changes: { label: "changes", about: "cells where the map no longer fits: walls that are gone, and what is new", on: true },
   bound: { label: "bound", about: "a ring about the estimate that the error leaves once in a thousand while tracking", on: true },
   estimate: { label: "estimate", about: "the filter's estimate of the robot's pose", on: true },
   ghost: { label: "odometry", about: "the pose by odometry alone", on: false },
