@@ -10,7 +10,7 @@
 namespace ortung::app {
 namespace {
 
-constexpr int kWanted = 560;     // width and height of one map [px]
+constexpr int kWanted = 900;     // width and height of one map [px]
 constexpr double kAround = 2.0;  // of what has changed [m]
 constexpr double kLeast = 6.0;   // width and height of what is drawn [m]
 constexpr int kBetween = 16;     // [px]

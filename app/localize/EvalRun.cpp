@@ -239,6 +239,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   result.robot = arguments.robot.string();
   result.tables = arguments.tables.string();
   result.tableInfo = localization->robot().tables;
+  result.changes = localization->mcl().mapChanges();
   result.start = arguments.start;
   result.faults = settings.arguments.faults;
   result.commandLine = settings.arguments.commandLine;

@@ -109,6 +109,24 @@ std::string linesSvg(const FieldModel& field) {
   return path.empty() ? "" : fmt::format(R"(<path class="line" d="{}"/>)", path);
 }
 
+std::string changesSvg(const MapChanges& changes) {
+  std::string svg;
+  for (const MapChange::Kind kind : {MapChange::Kind::kGone, MapChange::Kind::kNew}) {
+    const std::size_t count = changes.sure(kind);
+    if (count == 0) continue;
+    const bool isNew = kind == MapChange::Kind::kNew;
+    svg += fmt::format(R"(<path class="{}" d=")", isNew ? "fresh" : "gone");
+    constexpr double kCell = MapChanges::kCell;
+    for (const MapChange& one : changes.cells)
+      if (one.isSure && one.kind == kind)
+        svg += fmt::format("M{:.2f} {:.2f}h{:g}v{:g}h-{:g}z", one.x - 0.5 * kCell,
+                           one.y - 0.5 * kCell, kCell, kCell, kCell);
+    svg += fmt::format(R"("><title>{}: {} cells</title></path>)",
+                       isNew ? "something new" : "walls that are gone", count);
+  }
+  return svg;
+}
+
 std::string landmarksSvg(const FieldModel& field, const MapFrame& f) {
   std::string svg = R"(<g class="landmarks">)";
   const std::size_t count = std::min(field.landmarks.size(), kMostMarks);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "ortung/mcl/MapChanges.hpp"
 #include "ortung/tables/FieldModel.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
@@ -29,6 +30,8 @@ std::string regionSvg(const FieldRegion& region, const MapFrame& frame);
 std::string axesSvg(const MapFrame& frame);
 /// Draws the painted lines. y points up.
 std::string linesSvg(const FieldModel& field);
+/// Draws cells where the map no longer fits for sure. y points up.
+std::string changesSvg(const MapChanges& changes);
 /// Draws landmarks, with names for the pointer and for screen readers. y points up.
 std::string landmarksSvg(const FieldModel& field, const MapFrame& frame);
 

@@ -129,7 +129,8 @@ std::string row(const std::string& name, const std::string& value) {
   return fmt::format("<tr><th>{}</th><td>{}</td></tr>", escapeHtml(name), escapeHtml(value));
 }
 
-std::string legend(bool hasTruth, const FieldModel& field) {
+std::string legend(bool hasTruth, const RunResult& run) {
+  const FieldModel& field = run.tableInfo.field;
   std::string html =
       R"(<p class="legend">estimate, its quality: 0 )" + qualityBar() +
       R"( 1 <span class="key uncertain"></span>uncertain <span class="key lost"></span>lost)";
@@ -139,6 +140,9 @@ std::string legend(bool hasTruth, const FieldModel& field) {
   }
   if (!field.landmarks.empty()) html += R"( <span class="key landmark"></span>landmark)";
   if (!field.lines.empty()) html += R"( <span class="key line"></span>line on the floor)";
+  if (run.changes.sure(MapChange::Kind::kGone) > 0)
+    html += R"( <span class="key gone"></span>wall that is gone)";
+  if (run.changes.sure(MapChange::Kind::kNew) > 0) html += R"( <span class="key fresh"></span>new)";
   return html + R"( <span class="key tight"></span>too tight for the robot)"
                 R"( <span class="key solid"></span>solid, unknown or outside</p>)";
 }
@@ -216,8 +220,8 @@ std::string body(const RunResult& run) {
       "<div><h2>Run</h2><table>{}</table><h2>Command line</h2><pre>{}</pre></div></section>\n"
       "<footer>Made by ortung. Charts: <a href=\"https://github.com/leeoniya/uPlot\">uPlot</a>, "
       "MIT licence.</footer>\n",
-      escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth, run.tableInfo.field),
-      charts(run), rows, settings(run), escapeHtml(run.commandLine));
+      escapeHtml(run.figures.source), cards, mapSvg(run), legend(hasTruth, run), charts(run), rows,
+      settings(run), escapeHtml(run.commandLine));
 }
 
 }  // namespace

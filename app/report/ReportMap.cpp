@@ -36,6 +36,7 @@ std::string mapSvg(const RunResult& run) {
       points.empty() ? "" : " beside the ground truth");
   svg += regionSvg(run.tableInfo.region, frame) + axesSvg(frame);
   svg += R"x(<g transform="scale(1,-1)">)x" + linesSvg(field);
+  svg += changesSvg(run.changes);
   // The truth is a broad band, the estimate a thin line over it, so that neither hides the other.
   if (!points.empty()) {
     std::vector<std::pair<Timestamp, Pose2>> truth;

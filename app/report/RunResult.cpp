@@ -166,6 +166,8 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   json["grid_divergence_median"] = jsonNumber(besideGrid.divergence);
   json["grid_distance_median_m"] = jsonNumber(besideGrid.distance);
   addProtection(figures, json);
+  json["map_gone_cells"] = run.changes.sure(MapChange::Kind::kGone);
+  json["map_new_cells"] = run.changes.sure(MapChange::Kind::kNew);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Calibration.hpp"
+#include "ortung/mcl/MapChanges.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/study/Evaluation.hpp"
@@ -65,6 +66,7 @@ struct RunResult {
   std::optional<BoundFigures> bound;       ///< Cramer-Rao bound, if it was requested
   std::vector<PoseBound> bounds;           ///< that bound at all times
   std::vector<GridComparison> besideGrid;  ///< comparison at updates, if it was requested
+  MapChanges changes;                      ///< where the map no longer fits, at the end
   std::vector<float> errors;               ///< position errors at all times after convergence [m]
 };
 

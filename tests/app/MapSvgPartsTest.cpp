@@ -55,6 +55,21 @@ TEST(MapSvgParts, TheFrameIsTheGridsRectangle) {
   EXPECT_EQ(viewBox(frame), "-4.648 -3.288 8.864 7.008");
 }
 
+TEST(MapSvgParts, CellsThatAreSureToHaveChangedAreSquaresAroundWhatWasFound) {
+  using Kind = MapChange::Kind;
+  MapChanges changes;
+  EXPECT_EQ(changesSvg(changes), "");
+  changes.cells = {{Kind::kGone, 10, -21, 1.02, -2.05, 3, 3, 0, 1, 0, true},
+                   {Kind::kGone, 12, -21, 1.25, -2.05, 1, 1, 0, 1, 0, false},
+                   {Kind::kNew, 0, 0, 0.05, 0.05, 2, 2, 0, 1, 0, true},
+                   {Kind::kNew, 1, 0, 0.15, 0.05, 2, 2, 0, 1, 0, true}};
+  EXPECT_EQ(
+      changesSvg(changes),
+      R"(<path class="gone" d="M0.97 -2.10h0.1v0.1h-0.1z"><title>walls that are gone: 1 cells)"
+      R"(</title></path><path class="fresh" d="M0.00 0.00h0.1v0.1h-0.1zM0.10 0.00h0.1v0.1h-0.1z">)"
+      R"(<title>something new: 2 cells</title></path>)");
+}
+
 TEST(MapSvgParts, TheMaskIsWhiteWhereSolidAndGreyWhereTheRobotDoesNotFit) {
   FieldRegion region;
   region.grid = {0.0, 0.0, 1.0, 3, 2};

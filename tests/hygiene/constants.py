@@ -17,6 +17,8 @@ FIXED = {
     "belief/GivenBelief.cpp": {"kFarthest", "kRounding"},
     "belief/Resampling.cpp": {"kLeastWeight"},
     "filter/MclConfig.cpp": {"kMostSamples", "kRounding"},
+    "map/MapChanges.cpp": {"kRounding"},
+    "map/MapWatch.cpp": {"kFarthest"},
     "readings/NewReadings.cpp": {"kMostNats"},
     "refine/Polish.cpp": {"kSettledMetres", "kSettledRadians"},
     "refine/Steps.cpp": {"kMetres", "kRadians"},  # what is promised

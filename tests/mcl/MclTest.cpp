@@ -357,7 +357,7 @@ TEST(MclConfig, IsReadFromAFilesSection) {
       "drift_m, "
       "kld_error, kld_quantile, learns_biases, learns_odometry, max_interval_s, min_distance_m, "
       "min_particles, min_rotation_deg, particles, recover_fast, recover_slow, "
-      "resample_below, start_candidates_per_m2");
+      "resample_below, start_candidates_per_m2, watches_map");
 }
 
 TEST(Mcl, RefusesARegionWithoutAPlaceToStand) {

@@ -364,11 +364,13 @@ TEST(MclSettings, MclUsesWhatItsTableSays) {
   for (const auto& [key, value] : values) p.set(key, value);
   p.set("learns_biases", false);
   p.set("learns_odometry", false);
+  p.set("watches_map", false);
   for (const MclConfig::Option& option : MclConfig::options())
     EXPECT_TRUE(p.has(option.key)) << option.key << " is not looked at here";
   const MclConfig c = MclConfig::read(p);
   EXPECT_FALSE(c.learnsBiases);
   EXPECT_FALSE(c.learnsOdometry);
+  EXPECT_FALSE(c.watchesMap);
   EXPECT_EQ(c.budgetMs, 25.0);
   EXPECT_EQ(c.maxSamples, 3000u);
   EXPECT_EQ(c.minSamples, 300u);

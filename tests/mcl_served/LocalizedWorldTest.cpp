@@ -86,7 +86,7 @@ TEST(LocalizedWorld, RobotsAreLocalizedWhenAnOperatorSaysSo) {
   std::size_t described = 0;
   for (const std::string& line : served.lines("DESCRIBE robot robot=1"))
     if (line.starts_with("mcl/LOCALIZATION/")) ++described;
-  EXPECT_EQ(described, 7U);
+  EXPECT_EQ(described, 8U);
   EXPECT_EQ(valueOf(served.client.ask("LOCALIZE robot=1 on"), "state"), "learning");
   served.await("running");
   EXPECT_TRUE(served.client.ask("READ mcl/LOCALIZATION/samples robot=1 form=binary")

@@ -34,9 +34,9 @@ auto placeOf(const MapChange& change) { return std::tuple(change.kind, change.ro
 
 }  // namespace
 
-std::size_t MapChanges::sure() const {
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [](const MapChange& cell) { return cell.isSure; }));
+std::size_t MapChanges::sure(MapChange::Kind kind) const {
+  const auto isSure = [kind](const MapChange& cell) { return cell.isSure && cell.kind == kind; };
+  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), isSure));
 }
 
 void MapChanges::check() const {

@@ -9,6 +9,11 @@ namespace ortung::tuning {
 /// MapWatch: cells that beams contradict.
 namespace map {
 
+/// [sigma] Errors of noise and of the pose that contradict nothing.
+ORTUNG_CONSTANT(map, kSigmas, 3.0);
+/// Greatest number of points of which a cell's middle is the mean: later ones count as much as
+/// these, in case the wall was moved a little.
+ORTUNG_CONSTANT(map, kMostPoints, 50.0);
 /// [m] Standard deviation of positions up to which an estimate says where beams end. Half a cell.
 ORTUNG_CONSTANT(map, kMostSigma, 0.05);
 /// [rad] Standard deviation of headings up to which it does: 0.1 m at 6 m.
@@ -31,8 +36,8 @@ ORTUNG_CONSTANT(map, kGap, 10.0);
 ORTUNG_CONSTANT(map, kLongest, 60.0);
 /// Passes in a row that make a cell sure. People and doors seldom stay that long.
 ORTUNG_CONSTANT(map, kPasses, 2);
-/// Least number of sure cells next to each other: 0.3 m of wall.
-ORTUNG_CONSTANT(map, kTogether, 3);
+/// Least number of sure cells next to each other: 0.4 m of wall.
+ORTUNG_CONSTANT(map, kTogether, 4);
 /// [m] Least way between two looks, else they would not be independent. A cell.
 ORTUNG_CONSTANT(map, kStep, 0.1);
 /// [rad] Least turn between two looks.

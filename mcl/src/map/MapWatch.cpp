@@ -14,9 +14,7 @@ namespace {
 
 using namespace tuning::map;
 
-constexpr double kSigmas = 3.0;
-constexpr double kFarthest = 1e6;     ///< [m]
-constexpr double kMostPoints = 50.0;  ///< of which a cell's middle is the mean
+constexpr double kFarthest = 1e6;  ///< [m]
 constexpr Timestamp kTidy = 1'000'000;
 constexpr Timestamp kDay = 86'400'000'000;
 

@@ -46,8 +46,8 @@ struct ORTUNG_API MapChanges {
   static std::int32_t numberOf(double at) {
     return static_cast<std::int32_t>(std::floor(at / kCell));
   }
-  /// Returns how many cells are sure.
-  std::size_t sure() const;
+  /// Returns how many cells are sure to have changed so.
+  std::size_t sure(MapChange::Kind kind) const;
   /// @throws std::invalid_argument naming the wrong cell: more than kMost, unordered or twice the
   ///   same, farther than 1e6 m away, a middle outside of the cell, counts that don't fit together
   void check() const;
