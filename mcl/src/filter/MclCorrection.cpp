@@ -22,6 +22,13 @@ std::vector<const Weigher*> readingsOf(const std::vector<NewReading>& news) {
   return readings;
 }
 
+/// Returns whether the place is known well enough to say which beams meet what has changed. A fit
+/// that is worse than usual does not matter: what has changed is the reason, or may be.
+bool knowsPlace(const PoseEstimate& estimate) {
+  return estimate.status == TrackStatus::kTracking ||
+         (estimate.status == TrackStatus::kUncertain && estimate.reason == TrackReason::kPoorFit);
+}
+
 }  // namespace
 
 /// Moves and corrects the belief for one time step. While the place is known, beams that meet what
@@ -31,7 +38,7 @@ void Mcl::Impl::correctAt(Timestamp stamp, const std::vector<NewReading>& news) 
   std::optional<std::vector<NewReading>> unchanged;
   if (track->isKnown()) {
     steps.expect(presentAt(stamp).pose);
-    if (tools.config.watchesMap && estimate.status == TrackStatus::kTracking)
+    if (tools.config.watchesMap && knowsPlace(estimate))
       unchanged = map.withoutChanged(news, presentAt(stamp - delay()).pose);
   }
   ++step;
