@@ -1,5 +1,6 @@
 // A room in which a partition stands that was not learned.
 #include <cmath>
+#include <functional>
 
 #include "RoomRun.hpp"
 #include "ortung/formats/ChangesData.hpp"
@@ -13,7 +14,8 @@ constexpr double kHalf = 0.5;        ///< half its length [m]
 class ChangedRoom : public RoomRun {
  protected:
   /// Drives circles of 0.9 m about the middle at 0.1 m/s, so that each lap is a pass of its own.
-  void driveLaps(Localization& localization, int laps) {
+  void driveLaps(
+      Localization& localization, int laps, const std::function<void()>& afterEach = [] {}) {
     constexpr double kStep = 2 * kPi / 120;
     const ScanData::Config scan{
         .beams = 31, .firstAngle = -kPi / 2, .angleStep = kPi / 30, .maxRange = 8.0};
@@ -37,6 +39,7 @@ class ChangedRoom : public RoomRun {
                                 {"odometry", "odometry", "pose"},
                                 OdometryData::encode({inverse(start) * at, 0, 0, {}})}});
       localization.update();
+      afterEach();
       truth = at;
     }
   }
@@ -58,6 +61,29 @@ TEST_F(ChangedRoom, IsNoticedWithinThreePassesAndPublished) {
   const auto published = localization.container().get<ChangesData>({.feature = "map"});
   ASSERT_TRUE(published);
   EXPECT_EQ(published->cells.size(), changes.cells.size());
+}
+
+// Who goes to a moment of a record looks back three seconds for what was told.
+TEST_F(ChangedRoom, IsToldAgainAndAgainButNotEachTime) {
+  LocalizationConfig told = config();
+  told.publish = true;
+  Localization localization(told);
+  std::vector<Timestamp> stamps;
+  const auto look = [&] {
+    const SensorData* map = localization.container().find({.feature = "map"});
+    if (map->sequence() > 0 && (stamps.empty() || map->stamp() != stamps.back()))
+      stamps.push_back(map->stamp());
+  };
+  driveLaps(localization, 3, look);
+  ASSERT_GT(stamps.size(), 20U);
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    EXPECT_GE(stamps[i] - stamps[i - 1], 1'000'000);
+    repeated += stamps[i] - stamps[i - 1] == 2'000'000;
+  }
+  for (std::size_t i = stamps.size() - 20; i < stamps.size(); ++i)
+    EXPECT_LE(stamps[i] - stamps[i - 1], 2'500'000);
+  EXPECT_GT(repeated, 5U);
 }
 
 TEST_F(ChangedRoom, IsNotWatchedIfNobodyWants) {

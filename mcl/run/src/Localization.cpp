@@ -31,6 +31,7 @@ namespace {
 /// Time between two calls of a program that asks for estimates [us].
 constexpr Timestamp kAsking = 100'000;
 constexpr Timestamp kTellingMap = 1'000'000;  ///< least time between two readings of the map [us]
+constexpr Timestamp kTellingMapAgain = 2'000'000;  ///< time after which one is told again [us]
 
 MclConfig readMcl(const LocalizationConfig& config, const RobotConfig& robot) {
   MclConfig mcl = MclConfig::read(robot.mcl);
@@ -252,11 +253,15 @@ void Localization::publish(const PoseEstimate& estimate) {
   published_ = {estimate.status, estimate.reason};
 }
 
-/// Returns what is known of the map's changes if that is news, at most once a second.
+/// Returns what is known of the map's changes if that is news, at most once a second, and now and
+/// then if it is not: who goes to a moment of a record looks back a little way alone.
 std::optional<Message> Localization::newChanges(Timestamp stamp) {
-  if (toldMapAt_ && stamp >= *toldMapAt_ && stamp - *toldMapAt_ < kTellingMap) return std::nullopt;
+  const bool isTold = toldMapAt_ && stamp >= *toldMapAt_;
+  if (isTold && stamp - *toldMapAt_ < kTellingMap) return std::nullopt;
   Message message = changesMessage(stamp, mcl_->mapChanges());
-  if (toldMapAt_ && message.words == toldMap_) return std::nullopt;
+  const bool isSame = message.words == toldMap_;
+  const bool isEmpty = message.words.size() == 1;
+  if (isTold && isSame && (isEmpty || stamp - *toldMapAt_ < kTellingMapAgain)) return std::nullopt;
   toldMapAt_ = stamp;
   toldMap_ = message.words;
   return message;
