@@ -88,6 +88,9 @@ void drawChanges(const WorldGrid& grid, const ChangesData::Reading& changes, con
     if (!one.isSure) continue;
     const double column = (one.x - grid.originX) / grid.cell - static_cast<double>(part.column);
     const double row = (one.y - grid.originY) / grid.cell - static_cast<double>(part.row);
+    if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(part.columns) &&
+          row < static_cast<double>(part.rows)))
+      continue;
     const int x = left + static_cast<int>(column * part.zoom);
     const int y = kAbove + static_cast<int>((static_cast<double>(part.rows) - row) * part.zoom);
     picture.fill(x - half, y - half, 2 * half, 2 * half,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace {
 /// Distance from a wall that is gone within which cells become free [m]: surfaces of a wall are
 /// thin, and were found in cells of 0.1 m.
 constexpr double kAround = 0.15;
-constexpr double kLargestRest = 3.0;  ///< greatest extent of a rest that is looked at [m]
+constexpr double kLargestRest = 9.0;  ///< greatest area of a rest that is looked at [m^2]
 constexpr double kMostOpen = 0.5;     ///< share of a rest's border beyond which it is gone, too
 
 constexpr int kThinnings = 2;
@@ -95,7 +96,7 @@ class Mending {
   /// Frees the connected solid cells from @p first on if they are few, and most of what is around
   /// them has become free.
   void freeIfOpen(const Place& first) {
-    const double most = std::pow(kLargestRest / grid_.cell, 2.0);
+    const double most = kLargestRest / (grid_.cell * grid_.cell);
     std::vector<Place> rest{first};
     isSeen_[indexOf(first)] = true;
     std::size_t border = 0;
@@ -177,11 +178,13 @@ MendedCells mend(const ChangesData::Reading& changes, WorldGrid& grid) {
   constexpr double kNeighbours = 1.5;  // [cells]
   Mending mending(grid);
   std::vector<ChangesData::Cell> fresh;
+  std::set<std::pair<double, double>> taken;  // one of each cell, whoever wrote the file
   for (const ChangesData::Cell& one : changes.cells) {
     if (!one.isSure) continue;
-    if (one.isNew)
-      fresh.push_back(one);
-    else
+    const std::pair place(std::floor(one.x / changes.cell), std::floor(one.y / changes.cell));
+    if (one.isNew) {
+      if (taken.insert(place).second) fresh.push_back(one);
+    } else
       mending.free(one.x, one.y);
   }
   mending.freeRests();

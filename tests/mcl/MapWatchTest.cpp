@@ -63,7 +63,7 @@ class RoomScan final : public Weigher, public Traceable {
                        rangeIn(learned_, pose.x, pose.y, pose.theta + angle),
                        distanceFrom(learned_, pose.x + read * std::cos(pose.theta + angle),
                                     pose.y + read * std::sin(pose.theta + angle)),
-                       0.01});
+                       kFarthest, 0.01});
     }
   }
   std::shared_ptr<const Weigher> without(const std::vector<bool>& dropped) const override {
@@ -225,6 +225,69 @@ TEST_F(MapWatchTest, CountsDays) {
     most = std::max(most, one.days);
   }
   EXPECT_EQ(most, 3U);
+}
+
+// Many beams of a scan meet a cell near by.
+TEST_F(MapWatchTest, OneScanSaysNothing) {
+  PoseEstimate estimate;
+  estimate.covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-5};
+  estimate.status = TrackStatus::kTracking;
+  for (int k = 0; k < 5; ++k) {
+    estimate.stamp = now_ += kSecond;  // the robot stands still
+    watch_.follow(readingAt(withWall(1.0), kEmpty, estimate.pose), estimate);
+  }
+  EXPECT_TRUE(watch_.changes().cells.empty());
+}
+
+TEST_F(MapWatchTest, WhatIsOutOfReachIsNotTakenBack) {
+  for (int k = 0; k < 3; ++k) pass(withWall(2.0), kEmpty);
+  const std::size_t before = sure(MapChange::Kind::kNew);
+  ASSERT_GT(before, 0U);
+  const Room nothing;
+  for (int k = 0; k < 3; ++k) {
+    for (double y = -3.0; y <= 3.0; y += 0.15) {  // 13 m away, in an open hall
+      const Pose2 truth{-11.0, y, 0.0};
+      PoseEstimate estimate;
+      estimate.stamp = now_ += 300'000;
+      estimate.pose = truth;
+      estimate.covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-5};
+      estimate.status = TrackStatus::kTracking;
+      watch_.follow(readingAt(nothing, nothing, truth), estimate);
+    }
+    now_ += 60 * kSecond;
+  }
+  EXPECT_EQ(sure(MapChange::Kind::kNew), before);
+}
+
+TEST_F(MapWatchTest, LooksWithEachScanner) {
+  // Two scanners take turns; between them the robot moves less than a look asks for.
+  const auto* front = reinterpret_cast<const SensorData*>(1);
+  const auto* rear = reinterpret_cast<const SensorData*>(2);
+  for (int k = 0; k < 3; ++k) {
+    for (double y = -3.0; y <= 3.0; y += 0.08) {
+      const Pose2 truth{0.0, y, 0.0};
+      PoseEstimate estimate;
+      estimate.stamp = now_ += 100'000;
+      estimate.pose = truth;
+      estimate.covariance = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-5};
+      estimate.status = TrackStatus::kTracking;
+      const bool isFront = std::lround((y + 3.0) / 0.08) % 2 == 0;
+      std::vector<NewReading> news =
+          readingAt(withWall(2.0), isFront ? withWall(2.0) : kEmpty, truth);
+      news[0].feature = isFront ? front : rear;
+      watch_.follow(news, estimate);
+    }
+    now_ += 60 * kSecond;
+  }
+  EXPECT_FALSE(watch_.changes().cells.empty());
+}
+
+TEST_F(MapWatchTest, ForgetsWhatWasFoundOnce) {
+  pass(withWall(2.0), kEmpty);
+  ASSERT_FALSE(watch_.changes().cells.empty());
+  for (int k = 0; k < 3; ++k) pass(kEmpty, kEmpty);
+  for (const MapChange& one : watch_.changes().cells)
+    EXPECT_EQ(one.against, 0U) << "only what no beam has passed is left";
 }
 
 TEST_F(MapWatchTest, IsRestored) {

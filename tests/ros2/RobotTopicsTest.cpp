@@ -131,8 +131,13 @@ TEST_F(RobotTopicsTest, WhereTheMapNoLongerFitsIsAGridOfItsOwn) {
   ASSERT_EQ(grid.height, 3U);
   EXPECT_EQ(grid.data, (std::vector<std::int8_t>{0, -1, -1, -1, -1, -1, -1, -1, 100}));
   EXPECT_EQ(gridOf({}).data, (std::vector<std::int8_t>{-1})) << "viewers want a cell";
-  EXPECT_THROW(gridOf({{true, true, -1e4, 0.0, 2, 0}, {true, true, 1e4, 1e4, 2, 0}}),
-               std::invalid_argument);
+  const std::vector<ChangesData::Cell> apart{{true, true, -1e4, 0.0, 2, 0},
+                                             {true, true, 1e4, 1e4, 2, 0}};
+  EXPECT_TRUE(told(topics, {ChangesData::message(0, {0.1, apart})})["/map_changes"].empty())
+      << "too far apart";
+  EXPECT_FALSE(told(topics, {ChangesData::message(0, {0.1, {}})})["/map_changes"].empty());
+  EXPECT_TRUE(told(topics, {ChangesData::message(1, {0.1, {}})})["/map_changes"].empty())
+      << "the same again";
 }
 
 TEST_F(RobotTopicsTest, SamplesArePosesInTheMap) {

@@ -193,6 +193,27 @@ TEST_F(Kept, WhatARecordTellsOfItLastIsFound) {
   EXPECT_THROW(readFoundChanges(folder / "none"), std::runtime_error);
 }
 
+TEST_F(Kept, ChangesOfADamagedFileAreRefusedOrFitTogether) {
+  RecordWriter writer(folder / "told.rec", "room-1");
+  writer.write(changesMessage(2'000, changed()));
+  writer.commit();
+  writeWith(folder / "belief", {1, 1, 1, 1, 1, 0, 1, 0, 1}, {0.15, 0.15});
+  for (const char* name : {"told.rec", "belief"}) {
+    const std::string whole = readBytes(folder / name);
+    for (std::size_t bit = 0; bit < 8 * whole.size(); bit += 3) {
+      std::string bytes = whole;
+      bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+      writeBytes(folder / "damaged", bytes);
+      try {
+        for (const auto& cell : readFoundChanges(folder / "damaged").changes.cells)
+          EXPECT_TRUE(std::isfinite(cell.x) && std::isfinite(cell.y));
+      } catch (const std::runtime_error&) {
+        continue;  // says why
+      }
+    }
+  }
+}
+
 TEST_F(Kept, ChangesThatCantBeAreRefused) {
   const auto refusal = [&](const std::vector<std::int32_t>& numbers,
                            const std::vector<double>& middles) {

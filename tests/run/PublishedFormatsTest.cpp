@@ -130,7 +130,9 @@ TEST(ChangesData, RefusesOtherWords) {
   };
   EXPECT_NO_THROW(data.checkData(std::vector<std::uint32_t>{100}));
   EXPECT_NE(refusal({}).find("expected the edge of a cell first"), std::string::npos);
-  EXPECT_NE(refusal({0}).find("found cells of 0 mm"), std::string::npos);
+  EXPECT_NE(refusal({0}).find("found cells of 0 mm, expected 1 to 1000"), std::string::npos);
+  EXPECT_NE(refusal({1001}).find("found cells of 1001 mm"), std::string::npos);
+  EXPECT_NO_THROW(data.checkData(std::vector<std::uint32_t>{1000}));
   EXPECT_NE(refusal({100, 1}).find("six a cell and at most 5000 cells"), std::string::npos);
   EXPECT_NE(refusal({100, 2, 0, 1, 1, 1, 0}).find("kind of change 2"), std::string::npos);
   EXPECT_NE(refusal({100, 1, 2, 1, 1, 1, 0}).find("sign of being sure 2"), std::string::npos);

@@ -9,7 +9,8 @@
 namespace ortung {
 namespace {
 
-constexpr std::size_t kWords = 6;  // words of one cell
+constexpr std::uint32_t kWidest = 1000;  // [mm]
+constexpr std::size_t kWords = 6;        // words of one cell
 
 SensorId ownId() { return {"mcl", "LOCALIZATION", "map"}; }
 
@@ -59,7 +60,9 @@ std::string ChangesData::wordsHelp() const {
 void ChangesData::check(std::span<const std::uint32_t> words) const {
   if (words.empty())
     throw std::invalid_argument("found no words, expected the edge of a cell first");
-  if (words[0] == 0) throw std::invalid_argument("found cells of 0 mm");
+  if (words[0] == 0 || words[0] > kWidest)
+    throw std::invalid_argument("found cells of " + std::to_string(words[0]) +
+                                " mm, expected 1 to 1000");
   static_assert(kMostCells == 5'000);
   checkEntries(words.subspan(1), kWords, kMostCells,
                "one, and then six a cell and at most 5000 cells");

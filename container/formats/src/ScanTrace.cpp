@@ -42,6 +42,7 @@ void ScanTrace::trace(const Pose2& pose, std::vector<TracedBeam>& beams) const {
                     sensor.theta + config_.firstAngle + static_cast<double>(i) * config_.angleStep,
                     static_cast<double>(ranges_[i])};
     beam.expected = rangeAlong(*surfaces_, {beam.x, beam.y, beam.bearing}, config_.maxRange);
+    beam.reach = config_.maxRange;
     beam.away = std::isfinite(beam.read)
                     ? distanceFrom(*surfaces_, beam.x + beam.read * std::cos(beam.bearing),
                                    beam.y + beam.read * std::sin(beam.bearing))

@@ -84,6 +84,9 @@ MapChanges changesIn(const TableFile& file) {
   const auto refuse = [&](const std::string& what) {
     throw TableError(file.path().string() + ": " + what);
   };
+  if (numbers.size() / kNumbers > MapChanges::kMost)
+    refuse("has " + std::to_string(numbers.size() / kNumbers) +
+           " changed cells, expected at most " + std::to_string(MapChanges::kMost));
   for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
     const auto at = [&](std::size_t k) { return numbers[i + k]; };
     const auto count = [&](std::size_t k) { return static_cast<std::uint32_t>(at(k)); };

@@ -28,7 +28,11 @@ FoundChanges newestIn(const std::filesystem::path& file) {
   bool has = false;
   for (Message message; record.next(message);) {
     if (message.id != data.id()) continue;
-    data.setData(message.stamp, message.words);
+    try {
+      data.setData(message.stamp, message.words);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(file.string() + ": " + toText(message.id) + ": " + error.what());
+    }
     has = true;
   }
   if (!has)
@@ -42,9 +46,7 @@ FoundChanges newestIn(const std::filesystem::path& file) {
 FoundChanges readFoundChanges(const std::filesystem::path& path) {
   if (beginsLikeARecord(path)) return newestIn(path);
   const TableFile file(path);
-  ChangesData data;
-  data.setData(0, changesMessage(0, changesIn(file)).words);
-  return {data.reading(), worldIn(file)};
+  return {toldOf(changesIn(file)), worldIn(file)};
 }
 
 }  // namespace ortung

@@ -253,15 +253,17 @@ void Localization::publish(const PoseEstimate& estimate) {
   published_ = {estimate.status, estimate.reason};
 }
 
-/// Returns what is known of the map's changes if that is news, at most once a second, and now and
-/// then if it is not: who goes to a moment of a record looks back a little way alone.
+/// Returns what is known of the map's changes if that is news, at most once a second, and every two
+/// seconds if it is not: a player that jumps to a moment of a record looks back only a short way.
 std::optional<Message> Localization::newChanges(Timestamp stamp) {
-  const bool isTold = toldMapAt_ && stamp >= *toldMapAt_;
-  if (isTold && stamp - *toldMapAt_ < kTellingMap) return std::nullopt;
+  if (lookedAtMap_ && stamp >= *lookedAtMap_ && stamp - *lookedAtMap_ < kTellingMap)
+    return std::nullopt;
+  lookedAtMap_ = stamp;
   Message message = changesMessage(stamp, mcl_->mapChanges());
-  const bool isSame = message.words == toldMap_;
+  const bool isNews = message.words != toldMap_;
   const bool isEmpty = message.words.size() == 1;
-  if (isTold && isSame && (isEmpty || stamp - *toldMapAt_ < kTellingMapAgain)) return std::nullopt;
+  const bool isLongAgo = stamp < toldMapAt_ || stamp - toldMapAt_ >= kTellingMapAgain;
+  if (!isNews && (isEmpty || !isLongAgo)) return std::nullopt;
   toldMapAt_ = stamp;
   toldMap_ = message.words;
   return message;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ortung/formats/ChangesData.hpp"
 #include "ortung/formats/ClustersData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/ProtectionData.hpp"
@@ -43,12 +42,16 @@ Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places) {
   return ClustersData::message(stamp, reading);
 }
 
-Message changesMessage(Timestamp stamp, const MapChanges& changes) {
+ChangesData::Reading toldOf(const MapChanges& changes) {
   ChangesData::Reading reading{MapChanges::kCell, {}};
   for (const MapChange& one : changes.cells)
     reading.cells.push_back(
         {one.kind == MapChange::Kind::kNew, one.isSure, one.x, one.y, one.passes, one.against});
-  return ChangesData::message(stamp, reading);
+  return reading;
+}
+
+Message changesMessage(Timestamp stamp, const MapChanges& changes) {
+  return ChangesData::message(stamp, toldOf(changes));
 }
 
 Message samplesMessage(Timestamp stamp, const SampleSet& samples) {

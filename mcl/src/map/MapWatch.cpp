@@ -18,11 +18,7 @@ constexpr double kFarthest = 1e6;  ///< [m]
 constexpr Timestamp kTidy = 1'000'000;
 constexpr Timestamp kDay = 86'400'000'000;
 
-/// How far the pose may be off, in kSigmas standard deviations.
-struct Doubt {
-  double metres;
-  double radians;
-};
+using Doubt = MapWatch::Doubt;
 
 Doubt doubtOf(const PoseEstimate& estimate) {
   return {kSigmas * std::sqrt(std::max(estimate.covariance[0], estimate.covariance[4])),
@@ -54,6 +50,9 @@ MapWatch::Point pointOn(const TracedBeam& beam, double range) {
   return {beam.x + range * std::cos(beam.bearing), beam.y + range * std::sin(beam.bearing)};
 }
 
+/// How far a beam is known to go on: no farther than the sensor can tell.
+double wayOf(const TracedBeam& beam) { return std::min(beam.read, beam.reach); }
+
 double marginOf(const TracedBeam& beam, const Doubt& doubt) {
   return kMargin + std::hypot(kSigmas * beam.sigma, doubt.metres);
 }
@@ -64,9 +63,7 @@ bool hasMovedOn(const std::optional<Pose2>& from, const Pose2& to) {
   return std::hypot(change.x, change.y) >= kStep || std::abs(change.theta) >= kStepTurn;
 }
 
-std::int64_t dayOf(Timestamp stamp) {
-  return stamp >= 0 ? stamp / kDay : -((-stamp + kDay - 1) / kDay);
-}
+std::int64_t dayOf(Timestamp stamp) { return stamp / kDay - (stamp % kDay < 0 ? 1 : 0); }
 
 }  // namespace
 
@@ -79,34 +76,33 @@ void MapWatch::follow(const std::vector<NewReading>& news, const PoseEstimate& e
   if (estimate.status != TrackStatus::kTracking) return;
   const Doubt doubt = doubtOf(estimate);
   if (doubt.metres > kSigmas * kMostSigma || doubt.radians > kSigmas * kMostTurn) return;
-  if (!hasMovedOn(looked_, estimate.pose)) return;
   std::vector<TracedBeam> beams;
   for (const NewReading& one : news) {
     const auto* traceable = dynamic_cast<const Traceable*>(one.weigher.get());
-    if (traceable == nullptr) continue;
+    std::optional<Pose2>& looked = looked_[one.feature];
+    if (traceable == nullptr || !hasMovedOn(looked, estimate.pose)) continue;
     beams.clear();
     traceable->trace(estimate.pose, beams);
     if (beams.empty()) continue;
     look(beams, estimate);
-    looked_ = estimate.pose;
+    looked = estimate.pose;
   }
   tidy(estimate.stamp);
 }
 
 void MapWatch::look(const std::vector<TracedBeam>& beams, const PoseEstimate& estimate) {
   struct Found {
-    Key key;
-    Point at;
-    bool isOtherwise;
+    std::vector<Point> otherwise;
+    std::size_t asLearned = 0;
   };
   const Doubt doubt = doubtOf(estimate);
-  std::vector<Found> found;
+  std::map<Key, Found> found;
   std::size_t odd = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const TracedBeam& beam = beams[i];
     const double margin = marginOf(beam, doubt);
     const Expected expected = expectedAround(beams, i, doubt);
-    const bool isLonger = beam.read > expected.most + margin;
+    const bool isLonger = wayOf(beam) > expected.most + margin;
     const bool isShorter = beam.read < expected.least - margin;
     const bool isAsLearned =
         std::isfinite(beam.expected) && std::abs(beam.read - beam.expected) <= margin;
@@ -114,46 +110,74 @@ void MapWatch::look(const std::vector<TracedBeam>& beams, const PoseEstimate& es
     if (isOdd) ++odd;
     const auto add = [&](MapChange::Kind kind, double range, bool isOtherwise) {
       const Point at = pointOn(beam, range);
-      if (const auto key = keyAt(kind, at)) found.push_back({*key, at, isOtherwise});
+      const auto key = keyAt(kind, at);
+      if (!key) return;
+      if (isOtherwise)
+        found[*key].otherwise.push_back(at);
+      else
+        ++found[*key].asLearned;
     };
     if (isLonger || isAsLearned) add(MapChange::Kind::kGone, beam.expected, isLonger);
     if (isOdd && std::isfinite(beam.read) && beam.away > margin)
       add(MapChange::Kind::kNew, beam.read, true);
   }
   if (static_cast<double>(odd) > kMostOdd * static_cast<double>(beams.size())) return;
-  for (const Found& one : found) note(one.key, one.isOtherwise ? &one.at : nullptr, estimate.stamp);
-  lookPastNew(beams, estimate.stamp);
+  // The beams of a scan that meet a cell are one look.
+  for (const auto& [key, one] : found)
+    note(key, one.otherwise.size() > one.asLearned ? one.otherwise : std::vector<Point>(),
+         estimate.stamp);
+  lookPastNew(beams, doubt, estimate.stamp);
 }
 
 /// What was new is gone where beams on both sides go on behind it.
-void MapWatch::lookPastNew(const std::vector<TracedBeam>& beams, Timestamp stamp) {
+void MapWatch::lookPastNew(const std::vector<TracedBeam>& beams, const Doubt& doubt,
+                           Timestamp stamp) {
   const double x = beams.front().x;
   const double y = beams.front().y;
   const double first = beams.front().bearing;
-  for (auto& [key, cell] : cells_) {
-    if (key.kind != MapChange::Kind::kNew) continue;
+  double reach = 0.0;
+  for (const TracedBeam& beam : beams) reach = std::max(reach, wayOf(beam));
+  constexpr auto kLeft = std::numeric_limits<std::int32_t>::min();
+  const auto low = keyAt(MapChange::Kind::kNew, {x, y - reach});
+  const auto high = keyAt(MapChange::Kind::kNew, {x, y + reach});
+  if (!low || !high) return;
+  const auto end = cells_.lower_bound({high->kind, high->row + 1, kLeft});
+  for (auto at = cells_.lower_bound({low->kind, low->row, kLeft}); at != end; ++at) {
+    Cell& cell = at->second;
     const double dx = cell.before.x - x;
     const double dy = cell.before.y - y;
     const double away = std::hypot(dx, dy);
+    if (away > reach) continue;
     double bearing = first + wrapAngle(std::atan2(dy, dx) - first);
-    if (bearing < first) bearing += kTurn;
+    if (bearing < first) bearing += ortung::kTurn;
     const auto after =
         std::lower_bound(beams.begin(), beams.end(), bearing,
                          [](const TracedBeam& beam, double angle) { return beam.bearing < angle; });
     if (after == beams.begin() || after == beams.end()) continue;
-    const double past = away + MapChanges::kCell + kMargin;
-    if (std::min(after->read, std::prev(after)->read) > past) note(key, nullptr, stamp);
+    const TracedBeam& before = *std::prev(after);
+    const bool areBeside = (after->bearing - before.bearing) * away < kBeside;
+    if (areBeside && std::min(wayOf(*after), wayOf(before)) > away + marginOf(*after, doubt))
+      count(cell, false, stamp);
   }
 }
 
-/// Counts a look at a cell. @param at what contradicts the map there; null: nothing does
-void MapWatch::note(const Key& key, const Point* at, Timestamp stamp) {
+/// Counts a look at a cell. @param otherwise what contradicts the map there; empty: nothing does
+void MapWatch::note(const Key& key, const std::vector<Point>& otherwise, Timestamp stamp) {
   auto found = cells_.find(key);
   if (found == cells_.end()) {
-    if (at == nullptr || cells_.size() >= MapChanges::kMost) return;
+    if (otherwise.empty() || cells_.size() >= MapChanges::kMost) return;
     found = cells_.try_emplace(key).first;
   }
   Cell& cell = found->second;
+  count(cell, !otherwise.empty(), stamp);
+  for (const Point& at : otherwise) {
+    cell.points = std::min(cell.points + 1.0, kMostPoints);
+    cell.before.x += (at.x - cell.before.x) / cell.points;
+    cell.before.y += (at.y - cell.before.y) / cell.points;
+  }
+}
+
+void MapWatch::count(Cell& cell, bool isOtherwise, Timestamp stamp) {
   const bool isInPass = cell.otherwise + cell.asLearned > 0 && stamp >= cell.seen &&
                         toSeconds(stamp - cell.seen) < kGap &&
                         toSeconds(stamp - cell.begun) < kLongest;
@@ -162,14 +186,7 @@ void MapWatch::note(const Key& key, const Point* at, Timestamp stamp) {
     cell.begun = stamp;
   }
   cell.seen = stamp;
-  if (at == nullptr) {
-    ++cell.asLearned;
-    return;
-  }
-  ++cell.otherwise;
-  cell.points = std::min(cell.points + 1.0, kMostPoints);
-  cell.before.x += (at->x - cell.before.x) / cell.points;
-  cell.before.y += (at->y - cell.before.y) / cell.points;
+  ++(isOtherwise ? cell.otherwise : cell.asLearned);
 }
 
 MapWatch::Verdict MapWatch::verdictOf(const Cell& cell) {
@@ -213,8 +230,9 @@ void MapWatch::tidy(Timestamp stamp) {
     Cell& cell = at->second;
     if (toSeconds(stamp - cell.seen) >= kGap || toSeconds(stamp - cell.begun) >= kLongest)
       endPass(cell);
-    const bool isEmpty = cell.otherwise + cell.asLearned == 0 && cell.before.passes == 0;
-    at = isEmpty ? cells_.erase(at) : std::next(at);
+    // It was a person once, or what was changed is as it was.
+    const bool isOver = cell.before.lately == 0 && cell.before.against >= cell.before.passes;
+    at = cell.otherwise == 0 && isOver ? cells_.erase(at) : std::next(at);
   }
   findSure();
 }
@@ -274,7 +292,7 @@ void MapWatch::forgetPass() {
     cell.otherwise = 0;
     cell.asLearned = 0;
   }
-  looked_.reset();
+  looked_.clear();
 }
 
 MapChanges MapWatch::changes() const {
@@ -296,7 +314,7 @@ void MapWatch::restore(const MapChanges& changes) {
     cell.before = change;
     cell.points = kMostPoints;
   }
-  looked_.reset();
+  looked_.clear();
   findSure();
 }
 

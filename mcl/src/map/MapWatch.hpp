@@ -30,6 +30,11 @@ class ORTUNG_API MapWatch {
     double x;
     double y;
   };
+  /// How far a pose may be off.
+  struct Doubt {
+    double metres;
+    double radians;
+  };
   /// Takes the readings that have weighed the belief. @param estimate when they were read
   void follow(const std::vector<NewReading>& news, const PoseEstimate& estimate);
   /// Returns readings without beams that meet sure changes of the map if the robot is at @p pose;
@@ -65,15 +70,17 @@ class ORTUNG_API MapWatch {
   static void endPass(Cell& cell);
   static MapChange now(const Key& key, const Cell& cell);
   void look(const std::vector<TracedBeam>& beams, const PoseEstimate& estimate);
-  void lookPastNew(const std::vector<TracedBeam>& beams, Timestamp stamp);
-  void note(const Key& key, const Point* at, Timestamp stamp);
+  void lookPastNew(const std::vector<TracedBeam>& beams, const Doubt& doubt, Timestamp stamp);
+  void note(const Key& key, const std::vector<Point>& otherwise, Timestamp stamp);
+  static void count(Cell& cell, bool isOtherwise, Timestamp stamp);
   void tidy(Timestamp stamp);
   void findSure();
   bool isSureNear(MapChange::Kind kind, const TracedBeam& beam, double range) const;
 
   std::map<Key, Cell> cells_;
   std::set<Key> sure_;
-  std::optional<Pose2> looked_;  ///< pose of the newest look
+  std::map<const SensorData*, std::optional<Pose2>>
+      looked_;  ///< pose of each feature's newest look
   Timestamp tidied_ = 0;
 };
 

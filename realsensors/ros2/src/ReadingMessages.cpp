@@ -154,8 +154,8 @@ PoseArray samplesMessage(const Message& reading, Header header) {
   return out;
 }
 
-OccupancyGrid changesMessage(const Message& reading, Header header) {
-  constexpr double kMostCells = 1U << 24;
+std::optional<OccupancyGrid> changesMessage(const Message& reading, Header header) {
+  constexpr double kMostCells = 1U << 22;
   ChangesData data;
   data.setData(reading.stamp, reading.words);
   const ChangesData::Reading changes = data.reading();
@@ -174,10 +174,7 @@ OccupancyGrid changesMessage(const Message& reading, Header header) {
   if (left > right) left = right = bottom = top = 0.0;  // viewers want one cell at least
   const double columns = right - left + 1.0;
   const double rows = top - bottom + 1.0;
-  if (columns * rows > kMostCells)
-    throw std::invalid_argument(toText(reading.id) + ": what has changed is " +
-                                numberText(columns) + " x " + numberText(rows) +
-                                " cells wide, expected at most 2^24");
+  if (columns * rows > kMostCells) return std::nullopt;
   OccupancyGrid out;
   out.header = std::move(header);
   out.mapLoadTime = out.header.stamp;

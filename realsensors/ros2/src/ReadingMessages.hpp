@@ -37,8 +37,8 @@ Image imageMessage(const Message& reading, Header header);
 std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header);
 PoseArray samplesMessage(const Message& reading, Header header);
 /// Cells where the map no longer fits for sure: 0 where a wall is gone, 100 where something is new,
-/// -1 elsewhere. @throws std::invalid_argument for more than 2^24 cells around them
-OccupancyGrid changesMessage(const Message& reading, Header header);
+/// -1 elsewhere; nothing if they lie so far apart that the grid would have more than 2^22 cells.
+std::optional<OccupancyGrid> changesMessage(const Message& reading, Header header);
 /// How far a localization can be relied on: OK while tracking, WARN while uncertain, else ERROR.
 /// @param name of the localization among all parts of the robot
 DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,

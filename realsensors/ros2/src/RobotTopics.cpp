@@ -68,7 +68,8 @@ struct RobotTopics::Parts {
   std::string odometry;  ///< the feature that the frame of odometry is of; "": none
   std::optional<Pose2> inOdometry, newTruth, newEstimate;
   std::optional<TrackData::Reading> newTrack;
-  ProtectionData::Reading bound;  ///< the newest one
+  ProtectionData::Reading bound;            ///< the newest one
+  std::vector<std::uint32_t> shownChanges;  ///< words of the map's changes that went out last
   bool isEstimated = false;
   std::map<std::string, std::size_t> words;  ///< topic by feature
 
@@ -248,8 +249,9 @@ void RobotTopics::Parts::noteTrust(const Message& message, const Sink& sink) {
     const Header inMap{rosTime(message.stamp), kMap};
     sink(smooth, message.stamp, toCdr(PoseStamped{inMap, fromPose2(data.reading())}));
   } else if (message.id == kChanges) {
-    const Header inMap{rosTime(message.stamp), kMap};
-    sink(changes, message.stamp, toCdr(changesMessage(message, inMap)));
+    if (std::exchange(shownChanges, message.words) == message.words) return;
+    const auto grid = changesMessage(message, {rosTime(message.stamp), kMap});
+    if (grid) sink(changes, message.stamp, toCdr(*grid));
   } else if (message.id == kTrack) {
     TrackData track;
     track.setData(message.stamp, message.words);

@@ -19,6 +19,7 @@ struct TracedBeam {
   /// Distance from where the range that was read ends to the nearest surface learned [m]; infinity:
   /// none is near, or the range is infinite.
   double away = 0.0;
+  double reach = 0.0;  ///< greatest range that the sensor can tell [m]
   double sigma = 0.0;  ///< standard deviation of a range that was read at `expected` [m]
 };
 

@@ -211,8 +211,9 @@ class ORTUNG_API Localization {
   std::uint64_t estimates_ = 0;
   const SensorData* odometry_ = nullptr;  ///< odometry's feature; null without odometry
   std::optional<std::pair<TrackStatus, TrackReason>> published_;
-  std::optional<Timestamp> toldMapAt_;  ///< time of the newest reading of the map's changes
-  std::vector<std::uint32_t> toldMap_;  ///< its words
+  std::optional<Timestamp> lookedAtMap_;  ///< when the map's changes were asked for last
+  Timestamp toldMapAt_ = 0;               ///< time of their newest reading
+  std::vector<std::uint32_t> toldMap_;    ///< its words
   std::string worldMismatch_;
   std::optional<Timestamp> knownSince_;  ///< a search ended then, between two moments
   double newest_ = 0.0;                  ///< computing time of the newest update [ms]

@@ -4,6 +4,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/core/Message.hpp"
+#include "ortung/formats/ChangesData.hpp"
 #include "ortung/mcl/MapChanges.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/mcl/SampleSet.hpp"
@@ -22,6 +23,8 @@ ORTUNG_API Message trackMessage(const PoseEstimate& estimate);
 ORTUNG_API Message protectionMessage(const PoseEstimate& estimate);
 /// Makes the reading of mcl/LOCALIZATION/places, see ClustersData. @param places heaviest first
 ORTUNG_API Message clustersMessage(Timestamp stamp, std::span<const PoseEstimate> places);
+/// Returns changes of a map as ChangesData has them.
+ORTUNG_API ChangesData::Reading toldOf(const MapChanges& changes);
 /// Makes the reading of mcl/LOCALIZATION/map, see ChangesData.
 ORTUNG_API Message changesMessage(Timestamp stamp, const MapChanges& changes);
 /// Makes the reading of mcl/LOCALIZATION/samples, see SamplesData; if there are more samples than
