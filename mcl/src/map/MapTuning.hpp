@@ -26,8 +26,8 @@ ORTUNG_CONSTANT(map, kMargin, 0.15);
 /// [rad] Beams around one whose expectations it may have, too, beside three sigmas of the pose: at
 /// edges a small error of the pose changes the range by metres.
 ORTUNG_CONSTANT(map, kAround, 0.0131);
-/// Least number of scans in a pass that say something. A single one may be a person.
-ORTUNG_CONSTANT(map, kLooks, 2);
+/// Least number of scans in a pass that say something: one or two may be a person who stands.
+ORTUNG_CONSTANT(map, kLooks, 3);
 /// [m] Greatest distance between two beams that go on behind something, which is gone then: three
 /// cells.
 ORTUNG_CONSTANT(map, kBeside, 0.3);
