@@ -14,12 +14,12 @@
 namespace ortung {
 
 /// Where a localization has found that the map no longer fits: the feature mcl/LOCALIZATION/map
-/// (LocalizationConfig::publish), set when that changes, once a second at most, and repeated every two seconds.
-/// Words: edge of a cell [mm], then six a cell: 0 for a wall that is gone or 1 for something new,
-/// whether it is sure (0 or 1), x and y of what was found in it [mm + 2^31, field frame], passes of
-/// the robot in which it was found so, and in which it was not. Of more than kMostCells those that
-/// are not sure are left out first. It only reports, so it weighs no samples. Not thread-safe, see
-/// SensorData.
+/// (LocalizationConfig::publish), set when that changes, once a second at most, and repeated every
+/// two seconds. Words: edge of a cell [mm], then six a cell: 0 for a wall that is gone or 1 for
+/// something new, whether it is sure (0 or 1), x and y of what was found in it [mm + 2^31, field
+/// frame], passes of the robot in which it was found so, and in which it was not. Of more than
+/// kMostCells those that are not sure are left out first. It only reports, so it weighs no samples.
+/// Not thread-safe, see SensorData.
 class ORTUNG_API ChangesData : public SensorData {
  public:
   static constexpr const char* kFormat = formats::kChanges;
