@@ -16,8 +16,6 @@
 namespace ortung::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 void writeGridMap(WorldGrid grid, const Workshop& workshop) {
   constexpr std::size_t kMostSaid = 1U << 16;
   const Workshop text("--out", "grid.txt");

@@ -86,6 +86,11 @@ void addProtection(const EvaluationResult& figures, nlohmann::ordered_json& json
   json["protection_ratio"] = jsonNumber(figures.protectionRatio);
 }
 
+void addChanges(const MapChanges& changes, nlohmann::ordered_json& json) {
+  json["map_gone_cells"] = changes.sure(MapChange::Kind::kGone);
+  json["map_new_cells"] = changes.sure(MapChange::Kind::kNew);
+}
+
 }  // namespace
 
 const char* nameOf(RunKind kind) {
@@ -166,8 +171,7 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   json["grid_divergence_median"] = jsonNumber(besideGrid.divergence);
   json["grid_distance_median_m"] = jsonNumber(besideGrid.distance);
   addProtection(figures, json);
-  json["map_gone_cells"] = run.changes.sure(MapChange::Kind::kGone);
-  json["map_new_cells"] = run.changes.sure(MapChange::Kind::kNew);
+  addChanges(run.changes, json);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
 }
