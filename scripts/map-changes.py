@@ -32,18 +32,19 @@ UPDATES = 6   # of a pass, at least
 
 
 def localize(ortung, robot, tables, source, seed=1):
-    """The poses, and the cells that are sure to have changed: rows of kind (0 gone, 1 new), x, y."""
+    """Stamps [us] and positions, and the cells that are sure to have changed: rows of kind (0 gone, 1 new), x, y."""
     with tempfile.TemporaryDirectory() as folder:
         belief = os.path.join(folder, "belief")
         text = run([ortung, "localize", "--robot", robot, "--tables", tables, "--source", source, "--start", "global", "--any-world",
                     "--seed", seed, "--belief", belief])
-        path = np.array([[float(v) for v in line.replace(",", " ").split()[1:3]] for line in text.splitlines()[1:]])
+        rows = np.array([[float(v) for v in line.split()[:3]] for line in text.splitlines()[1:]])
+        stamps, path = rows[:, 0], rows[:, 1:]
         with np.load(belief) as saved:
             if "changes" not in saved:
-                return path, np.zeros((0, 3))
+                return stamps, path, np.zeros((0, 3))
             numbers, middles = saved["changes"], saved["changes_m"]
     sure = numbers[:, 8] == 1
-    return path, np.column_stack([numbers[sure, 0], middles[sure]])
+    return stamps, path, np.column_stack([numbers[sure, 0], middles[sure]])
 
 
 def way(path):
@@ -70,7 +71,7 @@ def alarms(options, out):
     total = [0.0, 0]
     for name in options.logs:
         base = import_laser(options.ortung, options.data, out, name)
-        path, cells = localize(options.ortung, base + "-robot.toml", base + ".ortung", "record:" + base + ".rec")
+        _, path, cells = localize(options.ortung, base + "-robot.toml", base + ".ortung", "record:" + base + ".rec")
         count = groups(cells)
         total = [total[0] + way(path), total[1] + count]
         rows.append("| %s | %.0f | %d | %d |" % (name, way(path), len(cells), count))
@@ -145,10 +146,7 @@ def walls(options, out):
     for name in options.logs:
         base = import_laser(options.ortung, options.data, out, name)
         grid = Map(base)
-        path, _ = localize(options.ortung, base + "-robot.toml", base + ".ortung", "record:" + base + ".rec")
-        stamps = [float(line.replace(",", " ").split()[0]) for line in
-                  run([options.ortung, "localize", "--robot", base + "-robot.toml", "--tables", base + ".ortung", "--source",
-                       "record:" + base + ".rec", "--start", "global"]).splitlines()[1:]]
+        stamps, path, _ = localize(options.ortung, base + "-robot.toml", base + ".ortung", "record:" + base + ".rec")
         noticed = tried = 0
         for row, new, column, length, around in moved_walls(grid, path, options.walls, random.Random(1)):
             cells = grid.cells.copy()
@@ -162,7 +160,7 @@ def walls(options, out):
                 file.write(world.read().replace(name + ".yaml", "moved.yaml"))
             run([options.ortung, "learn", "--world", other + ".toml", "--robot", base + "-robot.toml", "--out", other + ".ortung", "--force"])
             end = 1e-6 * (stamps[around[2][-1]] - stamps[0]) + 5.0
-            _, found = localize(options.ortung, base + "-robot.toml", other + ".ortung", "record:%s.rec?to_s=%.3f" % (base, end))
+            *_, found = localize(options.ortung, base + "-robot.toml", other + ".ortung", "record:%s.rec?to_s=%.3f" % (base, end))
             gone = found[(found[:, 0] == 0) & (abs(found[:, 2] - grid.y(new)) < 0.2) &
                          (found[:, 1] > grid.x(column) - CELL) & (found[:, 1] < grid.x(column + length) + CELL)]
             tried += 1
@@ -188,7 +186,7 @@ def sim(options, out):
     for what, where, seconds in (("as it was learned", world, 600), ("a box half a metre farther along, 180 s", moved, 180)):
         metres, count, noticed = 0.0, 0, 0
         for seed in range(1, options.seeds + 1):
-            path, cells = localize(options.ortung, robot, tables, "sim:%s?duration=%d&seed=%d" % (where, seconds, seed), seed)
+            _, path, cells = localize(options.ortung, robot, tables, "sim:%s?duration=%d&seed=%d" % (where, seconds, seed), seed)
             metres += way(path)
             count += groups(cells)
             noticed += len(cells) > 5

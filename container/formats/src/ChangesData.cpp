@@ -52,8 +52,7 @@ Format ChangesData::format() const { return Format(kFormat); }
 
 std::string ChangesData::wordsHelp() const {
   return "edge of a cell mm, then [0 a wall is gone or 1 something is new, 1 if that is sure, x mm "
-         "+ "
-         "2^31, y mm + 2^31, passes in which it was found so, passes in which it was not] a cell "
+         "+ 2^31, y mm + 2^31, passes in which it was found so, passes in which it was not] a cell "
          "where readings contradict the map";
 }
 

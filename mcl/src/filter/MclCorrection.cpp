@@ -37,9 +37,11 @@ void Mcl::Impl::correctAt(Timestamp stamp, const std::vector<NewReading>& news) 
   const std::uint32_t relocalizations = estimate.relocalizations;
   std::optional<std::vector<NewReading>> unchanged;
   if (track->isKnown()) {
-    steps.expect(presentAt(stamp).pose);
-    if (tools.config.watchesMap && knowsPlace(estimate))
-      unchanged = map.withoutChanged(news, presentAt(stamp - delay()).pose);
+    const Pose2 expected = presentAt(stamp).pose;
+    steps.expect(expected);
+    if (tools.config.watchesMap && map.isSure() && knowsPlace(estimate))
+      unchanged =
+          map.withoutChanged(news, delay() == 0 ? expected : presentAt(stamp - delay()).pose);
   }
   ++step;
   correct(unchanged ? *unchanged : news, predict(stamp));

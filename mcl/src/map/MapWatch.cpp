@@ -84,18 +84,17 @@ void MapWatch::follow(const std::vector<NewReading>& news, const PoseEstimate& e
     beams.clear();
     traceable->trace(estimate.pose, beams);
     if (beams.empty()) continue;
-    look(beams, estimate);
+    look(beams, doubt, estimate.stamp);
     looked = estimate.pose;
   }
   tidy(estimate.stamp);
 }
 
-void MapWatch::look(const std::vector<TracedBeam>& beams, const PoseEstimate& estimate) {
+void MapWatch::look(const std::vector<TracedBeam>& beams, const Doubt& doubt, Timestamp stamp) {
   struct Found {
     std::vector<Point> otherwise;
     std::size_t asLearned = 0;
   };
-  const Doubt doubt = doubtOf(estimate);
   std::map<Key, Found> found;
   std::size_t odd = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
@@ -124,9 +123,8 @@ void MapWatch::look(const std::vector<TracedBeam>& beams, const PoseEstimate& es
   if (static_cast<double>(odd) > kMostOdd * static_cast<double>(beams.size())) return;
   // The beams of a scan that meet a cell are one look.
   for (const auto& [key, one] : found)
-    note(key, one.otherwise.size() > one.asLearned ? one.otherwise : std::vector<Point>(),
-         estimate.stamp);
-  lookPastNew(beams, doubt, estimate.stamp);
+    note(key, one.otherwise.size() > one.asLearned ? one.otherwise : std::vector<Point>(), stamp);
+  lookPastNew(beams, doubt, stamp);
 }
 
 /// What was new is gone where beams on both sides go on behind it.

@@ -37,6 +37,8 @@ class ORTUNG_API MapWatch {
   };
   /// Takes the readings that have weighed the belief. @param estimate when they were read
   void follow(const std::vector<NewReading>& news, const PoseEstimate& estimate);
+  /// Returns whether anything is sure to have changed.
+  bool isSure() const { return !sure_.empty(); }
   /// Returns readings without beams that meet sure changes of the map if the robot is at @p pose;
   /// others stay as they are.
   std::vector<NewReading> withoutChanged(std::vector<NewReading> news, const Pose2& pose) const;
@@ -69,7 +71,7 @@ class ORTUNG_API MapWatch {
   static Verdict verdictOf(const Cell& cell);
   static void endPass(Cell& cell);
   static MapChange now(const Key& key, const Cell& cell);
-  void look(const std::vector<TracedBeam>& beams, const PoseEstimate& estimate);
+  void look(const std::vector<TracedBeam>& beams, const Doubt& doubt, Timestamp stamp);
   void lookPastNew(const std::vector<TracedBeam>& beams, const Doubt& doubt, Timestamp stamp);
   void note(const Key& key, const std::vector<Point>& otherwise, Timestamp stamp);
   static void count(Cell& cell, bool isOtherwise, Timestamp stamp);
