@@ -49,24 +49,31 @@ Centre centreOf(const SampleSet& set) {
   return centre;
 }
 
-/// Returns how many places explain the readings about as well as the best one does; none if even
-/// that fits worse than usual, or not well in itself.
-int explainedBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& moment,
-                const Recovery& recovery) {
+/// Returns how well readings fit at a place.
+double fitAt(const Pose2& place, const std::vector<const Weigher*>& readings) {
+  SampleSet one;
+  one.resize(1);
+  one.x[0] = static_cast<float>(place.x);
+  one.y[0] = static_cast<float>(place.y);
+  one.theta[0] = static_cast<float>(place.theta);
+  return fitOf(readings, one, std::array{1.0}).value_or(0.0);
+}
+
+/// What a search has found.
+struct Found {
+  int alike = 0;         ///< number of places that explain the readings about as well as the best
+  bool isUsual = false;  ///< whether the best one fits as well as usual, and well in itself
+};
+Found foundBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& moment,
+              const Recovery& recovery) {
   std::vector<const Weigher*> readings;
   for (const auto& reading : moment.readings) readings.push_back(reading.get());
   std::vector<double> fits;
-  for (const FieldSearch::Place& place : places) {
-    SampleSet one;
-    one.resize(1);
-    one.x[0] = static_cast<float>(place.pose.x);
-    one.y[0] = static_cast<float>(place.pose.y);
-    one.theta[0] = static_cast<float>(place.pose.theta);
-    fits.push_back(fitOf(readings, one, std::array{1.0}).value_or(0.0));
-  }
-  if (fits.empty() || fits.front() < elsewhere::kWell || !recovery.isUsual(fits.front())) return 0;
-  return static_cast<int>(std::ranges::count_if(
-      fits, [&](double fit) { return fit >= elsewhere::kAsWell * fits.front(); }));
+  for (const FieldSearch::Place& place : places) fits.push_back(fitAt(place.pose, readings));
+  if (fits.empty()) return {};
+  return {static_cast<int>(std::ranges::count_if(
+              fits, [&](double fit) { return fit >= elsewhere::kAsWell * fits.front(); })),
+          fits.front() >= elsewhere::kWell && recovery.isUsual(fits.front())};
 }
 
 /// Returns whether a hypothesis is at the same place as the belief, so that it is no alternative.
@@ -86,6 +93,7 @@ void Rivals::forget() {
   around_.reset();
   searching_.reset();
   elsewhere_.reset();
+  sightings_.forget();
   inVain_ = 0;
 }
 
@@ -200,7 +208,10 @@ std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
   std::optional<Takeover> takeover;
   if (elsewhere_) takeover = followElsewhere(moment, recovery, evidence);
   travelledSinceSearch_ += moment.travelled;
-  if (!takeover && mayFindBetter()) search(moment, recovery);
+  if (!takeover && mayFindBetter()) {
+    search(moment, recovery);
+    if (elsewhere_) takeover = takeOver(moment);
+  }
   return takeover;
 }
 
@@ -215,20 +226,25 @@ std::optional<Rivals::Takeover> Rivals::followElsewhere(const Moment& moment,
               recovery.isUsual(fit));
   elsewhere_->travelled += moment.travelled;
   ++elsewhere_->readings;
-  const bool isConfirmed = elsewhere_->isConfirmed();
-  if (rival.lead().isEnough() && (elsewhere_->isDistinct || isConfirmed)) {
-    // A place that is near was probably reached by motion that odometry did not count.
-    const bool isNear =
-        distance(centreOf(rival.samples()).pose, moment.predicted) < around::kLargestRing;
-    Takeover takeover{rival.samples(), 1.0, !isNear, isConfirmed};
-    forget();
-    return takeover;
-  }
+  if (auto takeover = takeOver(moment)) return takeover;
   if (rival.lead().isHopeless() || rival.unusual() >= elsewhere::kMostUnusual ||
       (recovery.hasRecovered() && rival.lead().nats() <= 0.0) ||
       isSame(centreOf(rival.samples()).pose, moment.predicted))
     elsewhere_.reset();
   return std::nullopt;
+}
+
+/// Lets the place elsewhere take over if it leads by enough, and is distinct or confirmed.
+std::optional<Rivals::Takeover> Rivals::takeOver(const Moment& moment) {
+  const Hypothesis& rival = elsewhere_->hypothesis;
+  const bool isConfirmed = elsewhere_->isConfirmed();
+  if (!rival.lead().isEnough() || !(elsewhere_->isDistinct || isConfirmed)) return std::nullopt;
+  // A place that is near was probably reached by motion that odometry did not count.
+  const bool isNear =
+      distance(centreOf(rival.samples()).pose, moment.predicted) < around::kLargestRing;
+  Takeover takeover{rival.samples(), 1.0, !isNear, isConfirmed};
+  forget();
+  return takeover;
 }
 
 /// @returns what the readings say for it against the belief [nats]
@@ -266,35 +282,46 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
   if (searching_->job.isDone()) drawElsewhere(moment, recovery);
 }
 
+/// Judges what a search has found.
+Rivals::Finding Rivals::judge(const Searching& done, const Recovery& recovery) {
+  const std::span<const FieldSearch::Place> places = done.job.places();
+  if (places.empty()) return Finding();
+  const Found found = foundBy(places, done.moment, recovery);
+  if (!found.isUsual) ++inVain_;
+  const double most =
+      found.isUsual ? mostNatsFor(found.alike * (1 + inVain_)) : lead::kMostNatsOfAReading;
+  const double ratio = places.front().logProbability - done.moment.logEvidence;
+  const double seen =
+      found.alike == 1 ? sightings_.see(places.front().pose, ratio, done.moment.odometry) : 0.0;
+  Finding finding{Lead(most), 2.0 * most >= lead::kEnoughNats || seen >= lead::kEnoughNats};
+  if (finding.isDistinct) finding.lead.count(ratio, 1.0);
+  finding.lead.atLeast(seen);
+  return finding;
+}
+
 /// Draws a hypothesis around the places found. The readings of the search count as evidence for it
-/// only if hardly any other place explains them: otherwise they have merely selected it. One that
-/// is followed is replaced only by such a place. In a crowd readings fit nowhere, one after the
-/// other, so that each further search is one more chance to find a wrong place.
+/// only if hardly any other place explains them, or another search has found it before: otherwise
+/// they have merely selected it. One that is followed is replaced only by such a place. In a crowd
+/// readings fit nowhere, one after the other, so that each further search is one more chance to
+/// find a wrong place.
 void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
   const Searching done = std::move(*searching_);
   searching_.reset();
-  const Moment& then = done.moment;
+  Finding finding = judge(done, recovery);
   const std::span<const FieldSearch::Place> places = done.job.places();
   std::vector<PoseSearch::Ring> rings;
-  const int explained = explainedBy(places, then, recovery);
-  if (explained == 0) ++inVain_;
-  const double most =
-      explained > 0 ? mostNatsFor(explained * (1 + inVain_)) : lead::kMostNatsOfAReading;
-  const bool isDistinct = 2.0 * most >= lead::kEnoughNats;
   for (const FieldSearch::Place& place : places) {
     if (place.logProbability > places.front().logProbability + lead::kHopelessNats)
       rings.push_back({place.pose, common::kPlaceRadius, places::kTurn});
   }
-  if (rings.empty() || (!isDistinct && (elsewhere_ || !recovery.callsForSearch()))) return;
-  Lead lead(most);
-  if (isDistinct) lead.count(places.front().logProbability - then.logEvidence, 1.0);
-  Hypothesis found(drawnFrom(rings, then));
-  carryOn(found, then, moment);
-  const Pose2 there = centreOf(found.samples()).pose;
+  if (rings.empty() || (!finding.isDistinct && (elsewhere_ || !recovery.callsForSearch()))) return;
+  Hypothesis drawn(drawnFrom(rings, done.moment));
+  carryOn(drawn, done.moment, moment);
+  const Pose2 there = centreOf(drawn.samples()).pose;
   if (isSame(there, moment.predicted)) return;
   if (elsewhere_ && isSame(centreOf(elsewhere_->hypothesis.samples()).pose, there))
-    lead.add(elsewhere_->hypothesis.lead());
-  elsewhere_.emplace(Elsewhere{Hypothesis(found.samples(), lead), isDistinct});
+    finding.lead.add(elsewhere_->hypothesis.lead());
+  elsewhere_.emplace(Elsewhere{Hypothesis(drawn.samples(), finding.lead), finding.isDistinct});
 }
 
 SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const {
@@ -310,8 +337,8 @@ SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Mo
 }
 
 /// Moves a hypothesis from the time of the search's readings to the present one.
-void Rivals::carryOn(Hypothesis& found, const Moment& then, const Moment& now) const {
-  found.move(0, [&](const MovableSamples& some, std::size_t first) {
+void Rivals::carryOn(Hypothesis& drawn, const Moment& then, const Moment& now) const {
+  drawn.move(0, [&](const MovableSamples& some, std::size_t first) {
     if (then.odometry && now.odometry)
       motion_.sampleMotion(some, inverse(*then.odometry) * *now.odometry, config_.seed, now.stream,
                            first);

@@ -12,6 +12,7 @@
 #include "OdometryTrust.hpp"
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
+#include "Sightings.hpp"
 #include "UpdateTime.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -95,7 +96,8 @@ class ORTUNG_API Rivals {
   };
   struct Elsewhere {
     Hypothesis hypothesis;
-    /// Whether the search's readings count, too, since hardly any other place explains them.
+    /// Whether the search's readings count, too, since hardly any other place explains them, or
+    /// two searches have found it.
     bool isDistinct = false;
     double travelled = 0.0;
     int readings = 0;
@@ -106,6 +108,11 @@ class ORTUNG_API Rivals {
     FieldSearch job;
     Moment moment;
   };
+  /// What a search says for the place that it has found.
+  struct Finding {
+    Lead lead = Lead();
+    bool isDistinct = false;
+  };
   std::optional<Takeover> lookAround(const Moment& moment, const Recovery& recovery,
                                      const Evidence& evidence);
   void drawAround(const Moment& moment, const Evidence& evidence);
@@ -115,12 +122,14 @@ class ORTUNG_API Rivals {
                                         const Evidence& evidence);
   std::optional<Takeover> followElsewhere(const Moment& moment, const Recovery& recovery,
                                           const Evidence& evidence);
+  std::optional<Takeover> takeOver(const Moment& moment);
   double weighElsewhere(const Moment& moment, const Evidence& evidence);
   bool mayFindBetter() const;
   void search(const Moment& moment, const Recovery& recovery);
+  Finding judge(const Searching& done, const Recovery& recovery);
   void drawElsewhere(const Moment& moment, const Recovery& recovery);
   SampleSet drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const;
-  void carryOn(Hypothesis& found, const Moment& then, const Moment& now) const;
+  void carryOn(Hypothesis& drawn, const Moment& then, const Moment& now) const;
 
   const MclConfig& config_;
   const FieldRegion& region_;
@@ -134,6 +143,7 @@ class ORTUNG_API Rivals {
   double travelledSinceSearch_ = 0.0;  ///< [m]
   /// Searches since doubts began that found no place where their readings fit.
   int inVain_ = 0;
+  Sightings sightings_;
   std::optional<Elsewhere> elsewhere_;
 };
 

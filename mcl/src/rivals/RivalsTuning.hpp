@@ -73,6 +73,16 @@ ORTUNG_CONSTANT(elsewhere, kEffective, 100.0);
 
 }  // namespace elsewhere
 
+/// Sightings of a place by several searches.
+namespace sightings {
+
+/// [share] Distance between where a search has found a place and where odometry led to from the
+/// last one, as a share of the distance travelled, at which they agree: at half of it a place that
+/// came along with the robot, or stayed behind, is not nearer.
+ORTUNG_CONSTANT(sightings, kAgrees, 0.5);
+
+}  // namespace sightings
+
 /// Confirmation of a place that a search has found.
 namespace confirmation {
 
