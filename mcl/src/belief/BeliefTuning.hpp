@@ -15,9 +15,6 @@ namespace common {
 ORTUNG_CONSTANT(common, kOutlier, 4.0);
 /// Ratio to the usual time between readings above which a gap is long. Chosen by hand.
 ORTUNG_CONSTANT(common, kLongGap, 3.0);
-/// [share] Least ratio of a usual time to its last value, so that it falls over ten updates. Chosen
-/// by hand.
-ORTUNG_CONSTANT(common, kUsualKept, 0.9);
 /// [m] Extent of one place: what is farther apart is at two. Chosen by hand: the width of a wide
 /// peak of a laser's likelihood.
 ORTUNG_CONSTANT(common, kPlaceMetres, 0.5);

@@ -16,6 +16,10 @@ namespace present {
 /// [s] Least time that counts as usual between two readings, so that the status does not flicker
 /// with fast devices.
 ORTUNG_CONSTANT(present, kLeastSilence, 0.5);
+/// [share] Least ratio of the usual interval between readings to its last value, so that it falls
+/// over a hundred updates: a camera that sees a landmark four times a second, then none for ten, is
+/// not silent whenever it sees none. Chosen by hand.
+ORTUNG_CONSTANT(present, kUsualKept, 0.99);
 /// [us] Age up to which readings are of the present place. Chosen by hand: a typical robot travels
 /// a metre in this time.
 ORTUNG_CONSTANT(present, kPresent, Timestamp{500'000});

@@ -91,7 +91,9 @@ Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicte
   std::vector<double> weights = predicted.drifted > 0
                                     ? takeInUnsure(moment, std::move(said), predicted.drifted)
                                     : takeIn(moment, said);
-  track->recovery.followBest(fitOfBelief(moment, weights).value_or(0.0));
+  const double fit = fitOfBelief(moment, weights).value_or(0.0);
+  track->recovery.followBest(fit);
+  if (compared) compared->fit = fit;
   track->confirmation.count(track->recovery.unusual() == 0, track->travelled.metres);
   return {std::move(moment), std::move(weights), std::move(compared), logEvidence};
 }
@@ -111,6 +113,7 @@ std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
       moment.stamp,
       estimateOf(tools.config, track->belief.samples().view(), said.before).pose,
       said.logEvidence,
+      0.0,
       track->travelled.all,
       stream(Purpose::kRivals),
       reached.odometry,

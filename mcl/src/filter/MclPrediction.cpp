@@ -15,7 +15,6 @@ namespace ortung {
 namespace {
 
 using namespace tuning::prediction;
-using tuning::common::kUsualKept;
 
 // Number of the first random number of each alternative hypothesis, so that its noise is not that
 // of the belief's samples.
@@ -120,7 +119,8 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
 /// The usual interval rises at once and falls slowly: what was usual a while ago is still usual.
 void Mcl::Impl::followIntervals(Timestamp stamp) {
   if (reached.stamp)
-    usualInterval = std::max(toSeconds(stamp - *reached.stamp), kUsualKept * usualInterval);
+    usualInterval =
+        std::max(toSeconds(stamp - *reached.stamp), tuning::present::kUsualKept * usualInterval);
 }
 
 /// Moves the samples by process noise: without odometry, before its first reading, while it is

@@ -16,7 +16,7 @@ namespace ortung {
 namespace {
 
 using namespace tuning::lateness;
-using tuning::common::kLongGap, tuning::common::kPlaceMetres, tuning::common::kUsualKept;
+using tuning::common::kLongGap, tuning::common::kPlaceMetres;
 
 /// Number of their first random number; no other samples use these numbers.
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;

@@ -61,8 +61,9 @@ double fitAt(const Pose2& place, const std::vector<const Weigher*>& readings) {
 
 /// What a search has found.
 struct Found {
-  int alike = 0;         ///< number of places that explain the readings about as well as the best
-  bool isUsual = false;  ///< whether the best one fits as well as usual, and well in itself
+  int alike = 0;          ///< number of places that explain the readings about as well as the best
+  bool isUsual = false;   ///< whether the best one fits as well as usual, and well in itself
+  bool isBetter = false;  ///< whether the belief explains them less well
 };
 Found foundBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& moment,
               const Recovery& recovery) {
@@ -71,9 +72,9 @@ Found foundBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& 
   std::vector<double> fits;
   for (const FieldSearch::Place& place : places) fits.push_back(fitAt(place.pose, readings));
   if (fits.empty()) return {};
-  return {static_cast<int>(std::ranges::count_if(
-              fits, [&](double fit) { return fit >= elsewhere::kAsWell * fits.front(); })),
-          fits.front() >= elsewhere::kWell && recovery.isUsual(fits.front())};
+  const double enough = elsewhere::kAsWell * fits.front();
+  return {static_cast<int>(std::ranges::count_if(fits, [&](double fit) { return fit >= enough; })),
+          fits.front() >= elsewhere::kWell && recovery.isUsual(fits.front()), moment.fit < enough};
 }
 
 /// Returns whether a hypothesis is at the same place as the belief, so that it is no alternative.
@@ -291,8 +292,10 @@ Rivals::Finding Rivals::judge(const Searching& done, const Recovery& recovery) {
   const double most =
       found.isUsual ? mostNatsFor(found.alike * (1 + inVain_)) : lead::kMostNatsOfAReading;
   const double ratio = places.front().logProbability - done.moment.logEvidence;
-  const double seen =
-      found.alike == 1 ? sightings_.see(places.front().pose, ratio, done.moment.odometry) : 0.0;
+  if (!found.isBetter) sightings_.forget();
+  const double seen = found.alike == 1 && found.isBetter
+                          ? sightings_.see(places.front().pose, ratio, done.moment.odometry)
+                          : 0.0;
   Finding finding{Lead(most), 2.0 * most >= lead::kEnoughNats || seen >= lead::kEnoughNats};
   if (finding.isDistinct) finding.lead.count(ratio, 1.0);
   finding.lead.atLeast(seen);

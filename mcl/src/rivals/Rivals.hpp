@@ -46,6 +46,7 @@ class ORTUNG_API Rivals {
     Timestamp stamp = 0;
     Pose2 predicted;           ///< pose at which the belief expects the robot
     double logEvidence = 0.0;  ///< ln p(readings | belief)
+    double fit = 0.0;          ///< how well they fit the belief, once they have weighed it
     /// Distance travelled since the readings before [m]; a turn of 1 rad counts as 1 m.
     double travelled = 0.0;
     std::uint64_t stream = 0;  ///< stream of random numbers
