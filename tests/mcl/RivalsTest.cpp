@@ -230,6 +230,15 @@ TEST(Rivals, APlaceThatTwoSearchesFindTakesOverThoughReadingsFitWorseThanUsual) 
   EXPECT_FALSE(drive.hasElsewhere()) << "all is told";
 }
 
+TEST(Rivals, OneSearchAmongMisfitsPutsNobodyAhead) {
+  Drive drive;
+  drive.misfit = 10.0;
+  for (int i = 0; i < 3; ++i) drive.reading(0.31, {8, -5, 2}, Pose2{1000, 1000, 0});
+  EXPECT_FALSE(drive.reading(0.31, {8, -5, 2}));
+  ASSERT_TRUE(drive.hasElsewhere());
+  EXPECT_LE(drive.rivals.lead(), 4.0) << "what a reading counts at most";
+}
+
 // A wide belief contains the place: it predicts readings badly, but they fit it well.
 TEST(Rivals, APlaceWhereReadingsFitTheBeliefAsWellIsNoOther) {
   Drive drive;

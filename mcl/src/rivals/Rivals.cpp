@@ -296,9 +296,10 @@ Rivals::Finding Rivals::judge(const Searching& done, const Recovery& recovery) {
   const double seen = found.alike == 1 && found.isBetter
                           ? sightings_.see(places.front().pose, ratio, done.moment.odometry)
                           : 0.0;
-  Finding finding{Lead(most), 2.0 * most >= lead::kEnoughNats || seen >= lead::kEnoughNats};
+  const bool isSeenAgain = seen >= lead::kEnoughNats;
+  Finding finding{Lead(most), isSeenAgain || 2.0 * most >= lead::kEnoughNats};
   if (finding.isDistinct) finding.lead.count(ratio, 1.0);
-  finding.lead.atLeast(seen);
+  if (isSeenAgain) finding.lead.atLeast(seen);
   return finding;
 }
 
