@@ -5,8 +5,9 @@
   scripts/fit-confidence.py build/sweep/bin/ortung ../shared/data [--write docs/constants.md]
 
 Logistic regression of "the position is less than kRight off" on what the filter knows, over the moments of recordings as they are,
-with constructed faults and with kidnaps. The area under the curve is of each recording by coefficients of the others. With --write
-the page says with which constants this was done. It takes some minutes.
+with constructed faults and with kidnaps, where one place has nearly all of the belief (quality is that times the place's share). The
+area under the curve, and how far claim and outcome of each disturbance are apart, are of each recording by coefficients of the
+others. With --write the page says with which constants this was done. It takes some minutes.
 """
 import argparse
 import concurrent.futures
@@ -21,12 +22,13 @@ import evaluate
 import results_page
 import sweep
 
-NAMES = ("kConstant", "kOfBelief", "kOfFit", "kOfFitLately", "kOfLead")
-RECORDINGS = ("intel", "aces", "belgioioso", "freiburg-101", "fhw", "jarvis", "ds1", "ds2", "ds3", "ds6")
+NAMES = ("kConstant", "kOfBelief", "kOfFitLately", "kOfLead", "kOfUnconfirmed", "kOfUnusual")
+RECORDINGS = ("intel", "aces", "belgioioso", "freiburg-101", "freiburg-079", "fhw", "sena_telecom", "jarvis", "ds1", "ds2", "ds3", "ds6")
 DISTURBANCES = ([], ["--teleport", "0.01"], ["--fault", "odometry=slip@100-105"], ["--fault", "readings=random:0.5"],
                 ["--fault", "odometry=none@60-90"], ["--fault", "odometry=scale:1.2"])
 LASER_ONLY = (["--fault", "readings=crowd@20-60"],)
 WEIGHED = 2000  # moments that each run counts as, so that long ones are not all that counts
+LEAST_SHARE = 0.99  # of the place in the belief
 LONGEST_GAP, FASTEST = 2.5, 3.0  # [s], [m/s]: the truth between two moments is not known beyond
 
 
@@ -49,8 +51,13 @@ def errors(signs, stamps, places):
     return signs[known], numpy.linalg.norm(signs[known, 1:3] - between[known], axis=1)
 
 
+def kinds(name):
+    """The disturbances of a recording, as options of `ortung eval`."""
+    return DISTURBANCES + (LASER_ONLY if name in evaluate.LASER else ())
+
+
 def moments(bench, name, options, reach):
-    """Signs and outcomes of a run: columns 1, belief, fit, fit lately, lead; and whether the position was less than `reach` off."""
+    """Signs and outcomes of a run: columns as NAMES, the first one 1; and whether the position was less than `reach` off."""
     with tempfile.TemporaryDirectory() as folder:
         noted, record = os.path.join(folder, "signs"), os.path.join(folder, "run.txt")
         bench.evaluate(name, ["--record", record, *options], {"ORTUNG_SIGNS": noted})
@@ -59,8 +66,8 @@ def moments(bench, name, options, reach):
             truth = truth_of(file)
     # Of several estimates of a moment the last one counts.
     signs = signs[numpy.unique(signs[::-1, 0], return_index=True)[1] * -1 + len(signs) - 1]
-    signs, off = errors(signs, *truth)
-    return numpy.column_stack([numpy.ones(len(signs)), signs[:, 3:7]]), off < reach
+    signs, off = errors(signs[signs[:, -1] > LEAST_SHARE], *truth)
+    return numpy.column_stack([numpy.ones(len(signs)), signs[:, 3:2 + len(NAMES)]]), off < reach
 
 
 def fit(rows, right, weights):
@@ -100,6 +107,16 @@ def loss(b, rows, right, weights):
     return -(weights * numpy.where(right, numpy.log(p), numpy.log(1 - p))).sum() / weights.sum()
 
 
+def apart(p, right, weights):
+    """Mean distance of claim and outcome, over tenths of the claim."""
+    total = 0.0
+    for low in numpy.arange(0.0, 1.0, 0.1):
+        some = (p >= low) & ((p < low + 0.1) | (low > 0.89))
+        if some.any():
+            total += abs((weights[some] * (p[some] - right[some])).sum())
+    return total / weights.sum()
+
+
 def describe(name, b, runs):
     rows, right, weights = stack(runs)
     p = 1.0 / (1.0 + numpy.exp(-rows @ b))
@@ -124,19 +141,28 @@ def main():
     os.makedirs(arguments.out, exist_ok=True)
     bench = sweep.Bench(arguments.ortung, arguments.data, arguments.out, RECORDINGS)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        asked = {name: [pool.submit(moments, bench, name, options, confidence["kRight"]) for options in
-                        DISTURBANCES + (LASER_ONLY if name in evaluate.LASER else ())] for name in RECORDINGS}
+        asked = {name: [pool.submit(moments, bench, name, options, confidence["kRight"]) for options in kinds(name)]
+                 for name in RECORDINGS}
         runs = {name: [f.result() for f in futures] for name, futures in asked.items()}
     everything = [run for some in runs.values() for run in some]
     now = numpy.array([confidence[name] for name in NAMES])
     best = fit(*stack(everything))
     describe("in the code", now, everything)
     describe("fitted", best, everything)
+    groups = {}
     for name, some in runs.items():
         others = [run for other, them in runs.items() if other != name for run in them]
+        of_others = fit(*stack(others))
         rows, right, _ = stack(some)
-        left_out = area(rows @ fit(*stack(others)), right)
+        left_out = area(rows @ of_others, right)
         print("  %-14s right %.2f of the time%s" % (name, right.mean(), "" if left_out is None else ", area %.3f" % left_out))
+        for options, (rows, right) in zip(kinds(name), some):
+            kind = "%s, %s" % ("laser" if name in evaluate.LASER else "landmarks", " ".join(options).split("@")[0] or "as they are")
+            groups.setdefault(kind, []).append((1.0 / (1.0 + numpy.exp(-rows @ of_others)), right))
+    for kind, pairs in groups.items():
+        p, right, weights = stack(pairs)
+        print("  %-50s right %.3f, claimed %.3f, apart %.3f" % (
+            kind, numpy.average(right, weights=weights), numpy.average(p, weights=weights), apart(p, right, weights)))
     if arguments.write:
         results_page.rewrite(arguments.write, lambda page: constants.with_fit(page, declared))
 

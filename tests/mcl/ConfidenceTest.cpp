@@ -65,15 +65,16 @@ TEST(Judge, SaysWhatSpeaksAgainstIt) {
   EXPECT_EQ(judged({.lead = 3.9}).reason, TrackReason::kFits);
   EXPECT_EQ(judged({.unusual = 1}).reason, TrackReason::kPoorFit);
   EXPECT_EQ(judged({.trustsOdometry = false}).reason, TrackReason::kOdometry);
-  EXPECT_EQ(judged({.isLate = true}).reason, TrackReason::kLate);
+  EXPECT_EQ(judged({.isLate = true, .mayBeLate = true}).reason, TrackReason::kLate);
+  EXPECT_EQ(judged({.mayBeLate = true}).reason, TrackReason::kMayBeLate);
   for (const Signs& signs :
        {Signs{.isFrozen = true}, Signs{.silence = 9.0}, Signs{.lead = 5.0}, Signs{.unusual = 2},
-        Signs{.trustsOdometry = false}, Signs{.isLate = true}})
+        Signs{.trustsOdometry = false}, Signs{.isLate = true}, Signs{.mayBeLate = true}})
     EXPECT_EQ(judged(signs).status, TrackStatus::kUncertain);
 }
 
 TEST(Judge, IsLostWhereReadingsDoNotFit) {
-  const PoseEstimate estimate = judged({.fit = 0.3, .fitLately = 0.4, .unusual = 5, .lead = 12.0});
+  const PoseEstimate estimate = judged({.fitLately = 0.4, .unusual = 5, .lead = 12.0});
   EXPECT_EQ(estimate.status, TrackStatus::kLost);
   EXPECT_LT(estimate.quality, 0.2);
 }
@@ -88,8 +89,8 @@ TEST(Judge, TellsSeveralPlacesFromAWideOne) {
   EXPECT_NE(judged({}, wide).status, TrackStatus::kTracking);
 }
 
-// The odds of a belief count with one factor, whatever its width: those of the closed form for
-// twice the covariance.
+// Below even the odds of a belief count with one factor, whatever its width: those of the closed
+// form for twice the covariance. Above even they say nothing more.
 TEST(Judge, TheCovarianceCountsTwice) {
   const auto odds = [](double p) { return std::log(p / (1.0 - p)); };
   const auto claimed = [&](double sigma) {
@@ -101,10 +102,11 @@ TEST(Judge, TheCovarianceCountsTwice) {
   const auto doubled = [&](double sigma) {
     return odds(1.0 - std::exp(-0.25 / (2.0 * 2.0 * sigma * sigma)));
   };
-  const double factor = (claimed(0.3) - claimed(0.6)) / (doubled(0.3) - doubled(0.6));
-  EXPECT_NEAR((claimed(0.15) - claimed(0.3)) / (doubled(0.15) - doubled(0.3)), factor, 0.01);
+  const double factor = (claimed(0.5) - claimed(0.6)) / (doubled(0.5) - doubled(0.6));
   EXPECT_NEAR((claimed(0.6) - claimed(1.5)) / (doubled(0.6) - doubled(1.5)), factor, 0.01);
+  EXPECT_NEAR((claimed(1.5) - claimed(9.0)) / (doubled(1.5) - doubled(9.0)), factor, 0.01);
   EXPECT_GT(factor, 0.0);
+  EXPECT_NEAR(claimed(0.1), claimed(0.3), 1e-9);
 }
 
 TEST(Judge, AnEndlessLeadCountsNoMoreThanOneThatTakesOver) {
@@ -115,7 +117,7 @@ TEST(Judge, AnEndlessLeadCountsNoMoreThanOneThatTakesOver) {
 TEST(Judge, IsLostExactlyWhereAnErrorIsMoreLikelyThanNot) {
   int lost = 0;
   for (int i = 0; i <= 1000; ++i) {
-    const PoseEstimate estimate = judged({.fit = 0.001 * i, .fitLately = 0.6});
+    const PoseEstimate estimate = judged({.fitLately = 0.001 * i, .lead = 12.0});
     EXPECT_EQ(estimate.status == TrackStatus::kLost, estimate.quality < 0.5) << i;
     if (estimate.status == TrackStatus::kLost) ++lost;
   }
@@ -123,9 +125,34 @@ TEST(Judge, IsLostExactlyWhereAnErrorIsMoreLikelyThanNot) {
   EXPECT_LT(lost, 1000);
 }
 
+// Of halls that look alike from both ends each may be the right one.
+TEST(Judge, IsNoSurerThanThatThePlaceIsTheRightOne) {
+  for (const double share : {0.1, 0.5, 0.9, 0.999}) {
+    PoseEstimate shared = narrow();
+    shared.share = share;
+    const PoseEstimate estimate = judged({}, shared);
+    EXPECT_LE(estimate.quality, share);
+    EXPECT_GT(estimate.quality, 0.99 * share);
+  }
+}
+
+TEST(Judge, DoesNotRelyOnABeliefWiderThanEvenOdds) {
+  const auto statusOf = [](double sigma) {
+    PoseEstimate wide = narrow();
+    wide.covariance = covarianceOf(sigma * sigma, 0, sigma * sigma);
+    return judged({}, wide).status;
+  };
+  // 0.5 m are within so many sigmas of twice the variance with even odds.
+  const double even = 0.5 / std::sqrt(4.0 * std::log(2.0));
+  EXPECT_EQ(statusOf(0.99 * even), TrackStatus::kTracking);
+  EXPECT_EQ(statusOf(1.01 * even), TrackStatus::kUncertain);
+  EXPECT_EQ(statusOf(20.0), TrackStatus::kLost);
+}
+
 TEST(Judge, QualityFallsWithEverySign) {
   const double best = judged({}).quality;
-  EXPECT_LT(judged({.fit = 0.8}).quality, best);
+  EXPECT_LT(judged({.unusual = 1}).quality, best);
+  EXPECT_LT(judged({.isConfirmed = false}).quality, best);
   EXPECT_LT(judged({.fitLately = 0.8}).quality, best);
   EXPECT_LT(judged({.lead = 8.0}).quality, best);
   PoseEstimate shared = narrow();
@@ -175,7 +202,7 @@ TEST(Judge, ProtectsOverWhatOdometrySaysAndAsFarAsTheBeliefReaches) {
 TEST(Judge, NothingBoundsTheErrorWhereOtherPlacesMayBeRight) {
   for (const Signs& signs : {Signs{.isFrozen = true}, Signs{.unusual = 1}, Signs{.lead = 4.0},
                              Signs{.isConfirmed = false}, Signs{.unusual = 1, .silence = 9.0},
-                             Signs{.fit = 0.3, .fitLately = 0.4, .unusual = 5, .lead = 12.0}}) {
+                             Signs{.fitLately = 0.4, .unusual = 5, .lead = 12.0}}) {
     EXPECT_TRUE(std::isinf(judged(signs).protection.metres));
     EXPECT_TRUE(std::isinf(judged(signs).protection.radians));
   }

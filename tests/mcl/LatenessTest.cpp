@@ -57,6 +57,7 @@ struct Robot {
   }
 
   Timestamp now() const { return fromSeconds(kStep * static_cast<double>(truths.size() - 1)); }
+  bool isSuspected() const { return lateness.isLate(now()) || lateness.mayBeLate(now()); }
 
   void read() {
     const auto steps = static_cast<std::size_t>(std::lround(late / kStep));
@@ -146,7 +147,7 @@ TEST(Lateness, IsFoundWhereTheRobotTurns) {
     robot.driveFor(8);
     EXPECT_EQ(robot.lateness.seconds(), 0.0);
     EXPECT_GT(robot.lateness.probability(0), 0.999);
-    EXPECT_FALSE(robot.lateness.isSuspected(robot.now()));
+    EXPECT_FALSE(robot.isSuspected());
     Robot delayed(roundCorners);
     delayed.late = late;
     delayed.driveFor(12);
@@ -154,7 +155,7 @@ TEST(Lateness, IsFoundWhereTheRobotTurns) {
     delayed.driveFor(30);
     EXPECT_NEAR(delayed.lateness.seconds(), late, 0.3);
     EXPECT_FALSE(delayed.changed) << late << ": the belief stays";
-    EXPECT_TRUE(delayed.lateness.isSuspected(delayed.now())) << "its end may go unseen";
+    EXPECT_TRUE(delayed.lateness.isLate(delayed.now())) << "its end may go unseen";
   }
 }
 
@@ -165,19 +166,19 @@ TEST(Lateness, IsFoundWhereTheRobotSetsOffOnce) {
     Robot robot(setsOff);
     robot.late = late;
     robot.driveFor(5);
-    EXPECT_FALSE(robot.lateness.isSuspected(robot.now())) << "it stands";
+    EXPECT_FALSE(robot.isSuspected()) << "it stands";
     for (int i = 0; i < 40; ++i) {
       robot.drive();
       const Pose2 there = robot.truths[robot.truths.size() - 1];
       const Pose2 told = robot.believed * inverse(robot.odometryThen) * robot.odometry.back();
       if (distance(there, told) > 1.0) {
-        EXPECT_TRUE(robot.lateness.isSuspected(robot.now()));
+        EXPECT_TRUE(robot.isSuspected());
       }
     }
     if (late == 0.0 || late >= 2.0) {
       EXPECT_EQ(robot.lateness.seconds(), late);
     }
-    EXPECT_EQ(robot.lateness.isSuspected(robot.now()), late > 0.0);
+    EXPECT_EQ(robot.isSuspected(), late > 0.0);
   }
 }
 
@@ -188,7 +189,8 @@ TEST(Lateness, CannotBeKnownOnAStraightWay) {
   robot.driveFor(60);
   EXPECT_NEAR(robot.lateness.probability(8), before, 1e-4);
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
-  EXPECT_TRUE(robot.lateness.isSuspected(robot.now())) << "the robot may be 2 m ahead";
+  EXPECT_TRUE(robot.lateness.mayBeLate(robot.now())) << "the robot may be 2 m ahead";
+  EXPECT_FALSE(robot.lateness.isLate(robot.now())) << "but nothing says so";
   // Estimates are so much wider, along the way alone.
   double squares = 0.0;
   for (std::size_t i = 0; i < Delays::kCount; ++i) {
@@ -255,7 +257,7 @@ TEST(Lateness, IsFoundWhereItBegins) {
     robot.isElsewhere = true;  // the belief is expected 2 m farther on
     for (int i = 0; i < 3; ++i) robot.drive();
     EXPECT_EQ(robot.changes, 0);
-    EXPECT_TRUE(robot.lateness.isSuspected(robot.now())) << "so far nothing has told of it";
+    EXPECT_TRUE(robot.isSuspected()) << "so far nothing has told of it";
     robot.drive();
     EXPECT_EQ(robot.changes, hasGap ? 1 : 0);
     EXPECT_NEAR(robot.lateness.seconds(), hasGap ? 2.0 : 0.0, 0.25);

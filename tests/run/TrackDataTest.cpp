@@ -78,7 +78,8 @@ TEST(TrackData, ItsFormatNamesEveryStatusReasonAndCause) {
             "a_device_repeats_its_reading_though_the_robot_moves,"
             "readings_fit_worse_than_usual,readings_fit_elsewhere,"
             "readings_contradict_odometry,the_field_is_searched,readings_are_late,"
-            "few_readings_have_confirmed_the_place_yet "
+            "few_readings_have_confirmed_the_place_yet,"
+            "no_turn_has_shown_yet_that_readings_are_in_time "
             "cause=none,a_global_start_found_the_robot,a_pose_was_given,"
             "readings_fit_another_place_better,readings_are_late_by_another_time,"
             "readings_corrected_it");
@@ -90,7 +91,8 @@ TEST(TrackData, ItsHelpNamesEveryStatusReasonAndCause) {
   for (const char* text :
        {"0 tracking", "1 uncertain", "2 lost", "0 readings fit", "3 no reading comes",
         "7 readings contradict odometry", "8 the field is searched", "9 readings are late",
-        "10 few readings have confirmed the place yet", "0 none", "5 readings corrected it"})
+        "10 few readings have confirmed the place yet",
+        "11 no turn has shown yet that readings are in time", "0 none", "5 readings corrected it"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 

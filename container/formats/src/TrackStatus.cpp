@@ -23,6 +23,7 @@ const char* nameOf(TrackReason reason) {
       "the field is searched",
       "readings are late",
       "few readings have confirmed the place yet",
+      "no turn has shown yet that readings are in time",
   };
   static_assert(std::size(kNames) == static_cast<std::size_t>(TrackReason::kLast) + 1);
   return kNames[static_cast<std::size_t>(reason)];

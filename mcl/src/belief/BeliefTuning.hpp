@@ -36,19 +36,26 @@ ORTUNG_CONSTANT(confidence, kRight, 0.5);
 /// Factor by which the covariance is inflated, since the reference, the map and the sensor models
 /// have errors, too. Fitted: confidence.
 ORTUNG_CONSTANT(confidence, kInflation, 2.0);
-/// [nats] Constant term of the log-odds that the position is right. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kConstant, -8.0);
-/// Coefficient of the log-odds that follow from share and covariance alone. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfBelief, 0.65);
-/// [nats] Coefficient of the fit of the newest readings. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfFit, 5.5);
+/// [nats] Constant term of the log-odds that the position is right if the robot is at the heaviest
+/// place at all. Fitted: confidence.
+ORTUNG_CONSTANT(confidence, kConstant, 3.0);
+/// Coefficient of the log-odds that follow from the covariance alone, where these are below even.
+/// Fitted: confidence.
+ORTUNG_CONSTANT(confidence, kOfBelief, 1.1);
 /// [nats] Coefficient of the short-term average of the fit. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfFitLately, 4.4);
+ORTUNG_CONSTANT(confidence, kOfFitLately, 5.2);
 /// Coefficient of the lead of another place over the belief, per nat. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfLead, -0.12);
+ORTUNG_CONSTANT(confidence, kOfLead, -0.46);
+/// [nats] What it counts that few readings have confirmed a place yet. Fitted: confidence.
+ORTUNG_CONSTANT(confidence, kOfUnconfirmed, -3.2);
+/// [nats] What it counts that the newest readings fit worse than usual. Fitted: confidence.
+ORTUNG_CONSTANT(confidence, kOfUnusual, -1.8);
 /// [share] Least quality of an estimate that may be relied on. Chosen by hand: one in ten may be
 /// wrong.
 ORTUNG_CONSTANT(confidence, kTracking, 0.9);
+/// [share] Probability by the covariance alone below which an estimate may not be relied on,
+/// be it that such ones have mostly been right. Chosen by hand: even odds.
+ORTUNG_CONSTANT(confidence, kSpread, 0.5);
 /// [share] Quality below which the status is "lost": the estimate is more probably wrong than
 /// right.
 ORTUNG_CONSTANT(confidence, kLost, 0.5);

@@ -19,6 +19,13 @@ double longSigma(const PoseCovariance& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * positionVariance(covariance) + off));
 }
 
+/// Returns the probability that the position is right by the covariance alone.
+double within(const PoseEstimate& estimate) {
+  PoseCovariance wide = estimate.covariance;
+  for (double& c : wide) c *= kInflation;
+  return std::clamp(probabilityWithin(wide, kRight), 1e-6, 1.0 - 1e-6);
+}
+
 /// Returns what speaks against an estimate first, whose share, covariance and quality are set.
 TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate) {
   if (signs.isFrozen) return TrackReason::kFrozen;
@@ -29,9 +36,11 @@ TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate) {
   if (signs.unusual > 0) return TrackReason::kPoorFit;
   if (estimate.share < kOfOnePlace) return TrackReason::kSeveralPlaces;
   if (!signs.isConfirmed) return TrackReason::kUnconfirmed;
+  if (signs.mayBeLate) return TrackReason::kMayBeLate;
   // The stamps of the readings may be wrong instead.
   if (!signs.trustsOdometry) return TrackReason::kOdometry;
-  return estimate.quality < kTracking ? TrackReason::kSpread : TrackReason::kFits;
+  const bool isSpread = estimate.quality < kTracking || within(estimate) < kSpread;
+  return isSpread ? TrackReason::kSpread : TrackReason::kFits;
 }
 
 /// Returns whether something speaks for other places, and nothing says how far away they are.
@@ -79,22 +88,21 @@ double probabilityWithin(const PoseCovariance& covariance, double metres) {
 }
 
 void judge(const Signs& signs, PoseEstimate& estimate) {
-  PoseCovariance wide = estimate.covariance;
-  for (double& c : wide) c *= kInflation;
-  const double within = probabilityWithin(wide, kRight);
-  const double belief = std::clamp(within * estimate.share, 1e-3, 1.0 - 1e-3);
-  const double oddsOfBelief = std::log(belief / (1.0 - belief));
-  const double fit = std::clamp(signs.fit, 0.0, 1.0);
+  const double narrow = within(estimate);
+  // Beyond even odds the covariance says nothing more of whether the place is right.
+  const double oddsWithin = std::min(0.0, std::log(narrow / (1.0 - narrow)));
   const double fitLately = std::clamp(signs.fitLately, 0.0, 1.0);
   // With more the other place takes over.
   const double lead = std::clamp(signs.lead, 0.0, tuning::lead::kEnoughNats);
+  const double unconfirmed = signs.isConfirmed ? 0.0 : 1.0;
+  const double unusual = signs.unusual > 0 ? 1.0 : 0.0;
 #ifdef ORTUNG_SWEEP
-  noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsOfBelief,
-             fit, fitLately, lead});
+  noteSigns({static_cast<double>(estimate.stamp), estimate.pose.x, estimate.pose.y, oddsWithin,
+             fitLately, lead, unconfirmed, unusual, estimate.share});
 #endif
-  const double odds = kConstant + kOfBelief * oddsOfBelief + kOfFit * fit +
-                      kOfFitLately * fitLately + kOfLead * lead;
-  estimate.quality = 1.0 / (1.0 + std::exp(-odds));
+  const double odds = kConstant + kOfBelief * oddsWithin + kOfFitLately * fitLately +
+                      kOfLead * lead + kOfUnconfirmed * unconfirmed + kOfUnusual * unusual;
+  estimate.quality = estimate.share / (1.0 + std::exp(-odds));
   estimate.reason = reasonFor(signs, estimate);
   estimate.status = estimate.quality < kLost                ? TrackStatus::kLost
                     : estimate.reason == TrackReason::kFits ? TrackStatus::kTracking

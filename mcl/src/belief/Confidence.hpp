@@ -14,11 +14,11 @@ inline constexpr double kBeyondUncertain = 0.01;
 
 /// The evidence from which the confidence in an estimate is computed.
 struct Signs {
-  double fit = 1.0;        ///< best fit of the newest readings, as a share of the usual one
-  double fitLately = 1.0;  ///< short-term average of the fit
-  int unusual = 0;         ///< number of readings in a row that fitted worse than usual
-  double lead = 0.0;       ///< lead of an alternative place over the belief [nats]
-  bool isFrozen = false;   ///< whether a device repeats its reading though the robot moves
+  /// Short-term average of how well readings fit, as a share of the usual fit.
+  double fitLately = 1.0;
+  int unusual = 0;        ///< number of readings in a row that fitted worse than usual
+  double lead = 0.0;      ///< lead of an alternative place over the belief [nats]
+  bool isFrozen = false;  ///< whether a device repeats its reading though the robot moves
   bool trustsOdometry = true;
   /// Whether later readings have confirmed the place that a global start found; true without a
   /// global start.
@@ -26,7 +26,9 @@ struct Signs {
   /// Time since the last reading that was weighed, in units of the usual interval between readings;
   /// nothing: there was no reading.
   std::optional<double> silence = 0.0;
-  bool isLate = false;      ///< whether stamps of readings seem delayed
+  bool isLate = false;  ///< whether stamps of readings seem delayed
+  /// Whether they may be delayed: nothing says so, nor has the robot turned or changed its speed.
+  bool mayBeLate = false;
   PoseDistance apart = {};  ///< how far the estimate is from where odometry has led to, unexplained
   /// How far from the estimate the belief reaches at other places; nothing: that is not known.
   std::optional<PoseDistance> others = std::nullopt;

@@ -50,17 +50,25 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
   return places;
 }
 
-bool Lateness::isSuspected(Timestamp stamp) const {
+bool Lateness::isLate(Timestamp stamp) const {
   // A delay of one step is too small to be reported.
-  if (inForce_ > 1 || std::any_of(belief_.jumps.begin(), belief_.jumps.end(), [](const Jump& jump) {
-        return jump.hypothesis.lead().nats() > tuning::lead::kMostNatsOfAReading;
-      }))
-    return true;
+  return inForce_ > 1 ||
+         std::ranges::any_of(belief_.jumps,
+                             [](const Jump& jump) {
+                               return jump.hypothesis.lead().nats() >
+                                      tuning::lead::kMostNatsOfAReading;
+                             }) ||
+         elsewhere(stamp) > kTold * tuning::delays::kLate;
+}
+
+bool Lateness::mayBeLate(Timestamp stamp) const { return elsewhere(stamp) > kLeftOut; }
+
+double Lateness::elsewhere(Timestamp stamp) const {
   const auto places = placesAt(stamp, Pose2{});
-  double elsewhere = 0.0;
+  double sum = 0.0;
   for (std::size_t i = 0; i < Delays::kCount; ++i)
-    if (distance(places[i], Pose2{}) > kPlaceMetres) elsewhere += probability(i);
-  return elsewhere > kLeftOut;
+    if (distance(places[i], Pose2{}) > kPlaceMetres) sum += probability(i);
+  return sum;
 }
 
 PoseEstimate Lateness::widened(const PoseEstimate& e, Timestamp stamp) const {

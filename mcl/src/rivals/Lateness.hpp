@@ -54,9 +54,13 @@ class ORTUNG_API Lateness {
   /// Returns the delay in force [s].
   double seconds() const { return Delays::secondsOf(inForce_); }
   double probability(std::size_t delay) const { return delays_.probability(delay); }
-  /// Returns whether a delay of more than one step is in force, a change of the delay is probable,
-  /// or the pose at @p stamp would be another one for delays that are too probable to be left out.
-  bool isSuspected(Timestamp stamp) const;
+  /// Returns whether something says that readings are late: a delay of more than one step is in
+  /// force, a change of the delay is probable, or delays for which the pose at @p stamp would be
+  /// another one are more probable than they are before anything is known.
+  bool isLate(Timestamp stamp) const;
+  /// Returns whether delays for which the pose at @p stamp would be another one are too probable to
+  /// be left out, be it that nothing has told yet.
+  bool mayBeLate(Timestamp stamp) const;
   /// Adds the uncertainty of the delay to an estimate for @p stamp that was made with the one in
   /// force.
   PoseEstimate widened(const PoseEstimate& e, Timestamp stamp) const;
@@ -79,6 +83,8 @@ class ORTUNG_API Lateness {
                                const Evidence& evidence);
 
  private:
+  /// Returns the probability of the delays for which the pose at @p stamp would be another one.
+  double elsewhere(Timestamp stamp) const;
   /// The hypothesis that another delay has begun.
   struct Jump {
     std::size_t delay;

@@ -75,7 +75,6 @@ bool Recovery::isDoubtful() const {
 
 void Recovery::followBest(double fit) {
   if (!best_) best_ = lately_ = fit;
-  last_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) || isOfScatter(fit) ? 0 : unusual_ + 1;
   // Two on end are no scatter: something has changed.

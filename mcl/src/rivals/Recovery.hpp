@@ -44,9 +44,7 @@ class ORTUNG_API Recovery {
   /// Returns whether the fit has been low for some time, so the robot may be anywhere.
   bool callsForSearch() const;
   bool hasRecovered() const;
-  /// Return the newest best fit, and the short-term average of best fits, as shares of the usual
-  /// one.
-  double fitOfUsual() const { return best_ ? last_ / *best_ : 1.0; }
+  /// Returns the short-term average of best fits, as a share of the usual one.
   double fitOfUsualLately() const { return best_ ? lately_ / *best_ : 1.0; }
   /// Returns the number of readings in a row that fitted worse than usual.
   int unusual() const { return unusual_; }
@@ -67,7 +65,6 @@ class ORTUNG_API Recovery {
   double fast_ = 0.0;
   double slow_ = 0.0;
   int unusual_ = 0;      ///< number of readings in a row that fitted worse than usual
-  double last_ = 0.0;    ///< newest best fit
   double lately_ = 0.0;  ///< its short-term average
   /// Usual best fit: a slow average that falls more slowly than it rises.
   std::optional<double> best_;

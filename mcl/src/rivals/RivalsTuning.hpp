@@ -118,6 +118,9 @@ ORTUNG_CONSTANT(lateness, kPiece, 1.0);
 /// Ratio of probabilities at which another delay replaces the one in force. Chosen by hand:
 /// Jeffreys' strong evidence.
 ORTUNG_CONSTANT(lateness, kStrongEvidence, 10.0);
+/// Ratio of the probability of delays to their prior at which readings have told of one. Chosen by
+/// hand.
+ORTUNG_CONSTANT(lateness, kTold, 2.0);
 /// [share] Total probability of delays that may be left out. Cost.
 ORTUNG_CONSTANT(lateness, kLeftOut, 0.005);
 /// [m] Greatest distance travelled within some seconds; beyond it odometry's counter jumped. More

@@ -27,7 +27,8 @@ enum class TrackReason : std::uint8_t {
   kSearching,      ///< a global start has found no place yet
   kLate,           ///< stamps of readings are late against odometry's
   kUnconfirmed,    ///< a global start has found a place that few readings have confirmed
-  kLast = kUnconfirmed,
+  kMayBeLate,  ///< no turn or change of speed has shown yet that readings are in time
+  kLast = kMayBeLate,
 };
 
 /// Why an estimate moved by more than the robot did. The numbers are words of the protocol: new
