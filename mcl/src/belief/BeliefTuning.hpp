@@ -38,18 +38,18 @@ ORTUNG_CONSTANT(confidence, kRight, 0.5);
 ORTUNG_CONSTANT(confidence, kInflation, 2.0);
 /// [nats] Constant term of the log-odds that the position is right if the robot is at the heaviest
 /// place at all. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kConstant, 3.0);
+ORTUNG_CONSTANT(confidence, kConstant, 3.6);
 /// Coefficient of the log-odds that follow from the covariance alone, where these are below even.
 /// Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfBelief, 1.1);
+ORTUNG_CONSTANT(confidence, kOfBelief, 1.0);
 /// [nats] Coefficient of the short-term average of the fit. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfFitLately, 5.2);
+ORTUNG_CONSTANT(confidence, kOfFitLately, 4.5);
 /// Coefficient of the lead of another place over the belief, per nat. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfLead, -0.46);
+ORTUNG_CONSTANT(confidence, kOfLead, -0.49);
 /// [nats] What it counts that few readings have confirmed a place yet. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfUnconfirmed, -3.2);
+ORTUNG_CONSTANT(confidence, kOfUnconfirmed, -2.6);
 /// [nats] What it counts that the newest readings fit worse than usual. Fitted: confidence.
-ORTUNG_CONSTANT(confidence, kOfUnusual, -1.8);
+ORTUNG_CONSTANT(confidence, kOfUnusual, -2.1);
 /// [share] Least quality of an estimate that may be relied on. Chosen by hand: one in ten may be
 /// wrong.
 ORTUNG_CONSTANT(confidence, kTracking, 0.9);
