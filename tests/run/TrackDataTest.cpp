@@ -62,12 +62,12 @@ TEST(TrackData, RefusesWhatCannotBe) {
   expectTold({1, 1, 1}, "found 3 words, expected 6");
   expectTold({1, 1, 1, 1, 1}, "found 5 words, expected 6");
   expectTold({3, 0, 0, 0}, "found the status 3, expected 0 to 2");
-  expectTold({0, 11, 0, 0}, "found the reason 11, expected 0 to 10");
+  expectTold({0, 12, 0, 0}, "found the reason 12, expected 0 to 11");
   expectTold({0, 0, 10001, 0}, "found the quality 10001, expected 0 to 10000");
   expectTold({0, 0, 0, 10001}, "found the share 10001, expected 0 to 10000");
   expectTold({0, 0, 0, 0, 1, 6}, "found the cause 6, expected 0 to 5");
   EXPECT_EQ(data.sequence(), 0U);
-  data.setData(1, std::vector<std::uint32_t>{2, 10, 10000, 10000});
+  data.setData(1, std::vector<std::uint32_t>{2, 11, 10000, 10000});
   EXPECT_EQ(data.sequence(), 1U);
 }
 

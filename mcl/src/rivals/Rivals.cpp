@@ -220,6 +220,7 @@ std::optional<Rivals::Takeover> Rivals::followElsewhere(const Moment& moment,
                                                         const Recovery& recovery,
                                                         const Evidence& evidence) {
   Hypothesis& rival = elsewhere_->hypothesis;
+  elsewhere_->before = rival.lead();
   const double ratio = weighElsewhere(moment, evidence);
   const double fit = evidence.fit(rival.samples());
   const double most = fit < elsewhere::kWell ? lead::kMostNatsOfAReading : std::abs(ratio);
@@ -274,7 +275,8 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
   if (!searching_ && (recovery.callsForSearch() || recovery.unusual() > 0)) {
     FieldSearch::Settings settings;
     settings.workers = &workers_;
-    searching_.emplace(Searching{FieldSearch(region_, settings), moment});
+    searching_.emplace(Searching{FieldSearch(region_, settings), moment,
+                                 elsewhere_ ? elsewhere_->before : Lead()});
     travelledSinceSearch_ = 0.0;
     searching_->job.begin(moment.readings);
   }
@@ -323,8 +325,9 @@ void Rivals::drawElsewhere(const Moment& moment, const Recovery& recovery) {
   carryOn(drawn, done.moment, moment);
   const Pose2 there = centreOf(drawn.samples()).pose;
   if (isSame(there, moment.predicted)) return;
+  // The search's readings counted for the one that is followed, too, and count once.
   if (elsewhere_ && isSame(centreOf(elsewhere_->hypothesis.samples()).pose, there))
-    finding.lead.add(elsewhere_->hypothesis.lead());
+    finding.lead.add(done.before);
   elsewhere_.emplace(Elsewhere{Hypothesis(drawn.samples(), finding.lead), finding.isDistinct});
 }
 

@@ -102,12 +102,14 @@ class ORTUNG_API Rivals {
     bool isDistinct = false;
     double travelled = 0.0;
     int readings = 0;
+    Lead before = Lead();  ///< its lead before the newest readings counted
     bool isConfirmed() const;
   };
   /// A search of the field, for the time of its readings.
   struct Searching {
     FieldSearch job;
     Moment moment;
+    Lead before;  ///< lead of the place elsewhere before its readings counted
   };
   /// What a search says for the place that it has found.
   struct Finding {
