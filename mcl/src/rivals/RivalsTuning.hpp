@@ -136,8 +136,8 @@ ORTUNG_CONSTANT(lateness, kPlacesApart, 0.3);
 /// [m + rad] Motion after which a reading counts fully. Chosen by hand: trust::kIndependent, for
 /// distance and turn together.
 ORTUNG_CONSTANT(lateness, kIndependent, 0.2);
-/// [share] Least ratio of the usual gap to its last value, so that it falls over ten updates. Chosen
-/// by hand.
+/// [share] Least ratio of the usual gap to its last value, so that it falls over ten updates.
+/// Chosen by hand.
 ORTUNG_CONSTANT(lateness, kUsualKept, 0.9);
 /// Greatest ratio of the usual gap to its last value. Chosen by hand.
 ORTUNG_CONSTANT(lateness, kGapMore, 1.5);

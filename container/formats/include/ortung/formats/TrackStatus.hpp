@@ -27,7 +27,7 @@ enum class TrackReason : std::uint8_t {
   kSearching,      ///< a global start has found no place yet
   kLate,           ///< stamps of readings are late against odometry's
   kUnconfirmed,    ///< a global start has found a place that few readings have confirmed
-  kMayBeLate,  ///< no turn or change of speed has shown yet that readings are in time
+  kMayBeLate,      ///< no turn or change of speed has shown yet that readings are in time
   kLast = kMayBeLate,
 };
 
