@@ -74,7 +74,7 @@ def fit(rows, right, weights):
     """Coefficients of the greatest likelihood, by Newton's method."""
     b = numpy.zeros(rows.shape[1])
     for _ in range(50):
-        p = 1.0 / (1.0 + numpy.exp(-rows @ b))
+        p = claimed(b, rows)
         curvature = (rows * (weights * p * (1.0 - p))[:, None]).T @ rows + 1e-6 * numpy.eye(len(b))
         step = numpy.linalg.solve(curvature, rows.T @ (weights * (right - p)))
         b += step
@@ -103,27 +103,30 @@ def stack(runs):
 
 def loss(b, rows, right, weights):
     """Mean of -ln p(outcome) [nats]."""
-    p = numpy.clip(1.0 / (1.0 + numpy.exp(-rows @ b)), 1e-9, 1 - 1e-9)
+    p = numpy.clip(claimed(b, rows), 1e-9, 1 - 1e-9)
     return -(weights * numpy.where(right, numpy.log(p), numpy.log(1 - p))).sum() / weights.sum()
+
+
+def claimed(b, rows):
+    return 1.0 / (1.0 + numpy.exp(-rows @ b))
+
+
+def tenths(p):
+    """Which moments' claims are in each tenth; the last one has its end."""
+    return [(p >= low) & ((p < low + 0.1) | (low > 0.89)) for low in numpy.arange(0.0, 1.0, 0.1)]
 
 
 def apart(p, right, weights):
     """Mean distance of claim and outcome, over tenths of the claim."""
-    total = 0.0
-    for low in numpy.arange(0.0, 1.0, 0.1):
-        some = (p >= low) & ((p < low + 0.1) | (low > 0.89))
-        if some.any():
-            total += abs((weights[some] * (p[some] - right[some])).sum())
-    return total / weights.sum()
+    return sum(abs((weights[some] * (p[some] - right[some])).sum()) for some in tenths(p)) / weights.sum()
 
 
 def describe(name, b, runs):
     rows, right, weights = stack(runs)
-    p = 1.0 / (1.0 + numpy.exp(-rows @ b))
+    p = claimed(b, rows)
     print("%s: %s" % (name, ", ".join("%s %.3g" % pair for pair in zip(NAMES, b))))
     print("  loss %.4f nats, area under the curve %.3f" % (loss(b, rows, right, weights), area(p, right)))
-    for low in numpy.arange(0.0, 1.0, 0.1):
-        some = (p >= low) & ((p < low + 0.1) | (low > 0.89))
+    for some in tenths(p):
         if some.sum() >= 100:
             print("  claimed %.2f, right %.2f (%d moments)" % (p[some].mean(), right[some].mean(), some.sum()))
 
@@ -158,7 +161,7 @@ def main():
         print("  %-14s right %.2f of the time%s" % (name, right.mean(), "" if left_out is None else ", area %.3f" % left_out))
         for options, (rows, right) in zip(kinds(name), some):
             kind = "%s, %s" % ("laser" if name in evaluate.LASER else "landmarks", " ".join(options).split("@")[0] or "as they are")
-            groups.setdefault(kind, []).append((1.0 / (1.0 + numpy.exp(-rows @ of_others)), right))
+            groups.setdefault(kind, []).append((claimed(of_others, rows), right))
     for kind, pairs in groups.items():
         p, right, weights = stack(pairs)
         print("  %-50s right %.3f, claimed %.3f, apart %.3f" % (

@@ -120,15 +120,16 @@ def put(page, rows):
     kept = {key: line for key, (line, _) in constants.rows_of(old).items()}
     lines, before = [], (None, None)
     for c in constants.declared(ROOT):
+        if c in rows:
+            kept[c.key] = "| `%s` | %s | %s | %s |" % (c.name, c.shown, *rows[c])
+        if c.key not in kept:
+            continue
         if c.room != before[0]:
             lines += ["", "## %s" % c.room.capitalize()]
         if (c.room, c.part) != before:
             lines += ["", "### `%s`" % c.part, "", "| constant | value | half of it | twice as much |", "|---|---|---|---|"]
         before = (c.room, c.part)
-        if c in rows:
-            kept[c.key] = "| `%s` | %s | %s | %s |" % (c.name, c.shown, *rows[c])
-        if c.key in kept:
-            lines.append(kept[c.key])
+        lines.append(kept[c.key])
     return head + mark + "\n".join(lines[1:]) + "\n"
 
 

@@ -57,7 +57,8 @@ struct Robot {
   }
 
   Timestamp now() const { return fromSeconds(kStep * static_cast<double>(truths.size() - 1)); }
-  bool isSuspected() const { return lateness.isLate(now()) || lateness.mayBeLate(now()); }
+  Lateness::Suspicion suspicion() const { return lateness.suspicion(now()); }
+  bool isSuspected() const { return suspicion() != Lateness::Suspicion::kNone; }
 
   void read() {
     const auto steps = static_cast<std::size_t>(std::lround(late / kStep));
@@ -155,7 +156,7 @@ TEST(Lateness, IsFoundWhereTheRobotTurns) {
     delayed.driveFor(30);
     EXPECT_NEAR(delayed.lateness.seconds(), late, 0.3);
     EXPECT_FALSE(delayed.changed) << late << ": the belief stays";
-    EXPECT_TRUE(delayed.lateness.isLate(delayed.now())) << "its end may go unseen";
+    EXPECT_EQ(delayed.suspicion(), Lateness::Suspicion::kTold) << "its end may go unseen";
   }
 }
 
@@ -189,8 +190,8 @@ TEST(Lateness, CannotBeKnownOnAStraightWay) {
   robot.driveFor(60);
   EXPECT_NEAR(robot.lateness.probability(8), before, 1e-4);
   EXPECT_EQ(robot.lateness.seconds(), 0.0);
-  EXPECT_TRUE(robot.lateness.mayBeLate(robot.now())) << "the robot may be 2 m ahead";
-  EXPECT_FALSE(robot.lateness.isLate(robot.now())) << "but nothing says so";
+  EXPECT_EQ(robot.suspicion(), Lateness::Suspicion::kPossible)
+      << "the robot may be 2 m ahead, but nothing says so";
   // Estimates are so much wider, along the way alone.
   double squares = 0.0;
   for (std::size_t i = 0; i < Delays::kCount; ++i) {

@@ -26,8 +26,9 @@ double within(const PoseEstimate& estimate) {
   return std::clamp(probabilityWithin(wide, kRight), 1e-6, 1.0 - 1e-6);
 }
 
-/// Returns what speaks against an estimate first, whose share, covariance and quality are set.
-TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate) {
+/// Returns what speaks against an estimate first, whose share and quality are set.
+/// @param narrow within() of the estimate
+TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate, double narrow) {
   if (signs.isFrozen) return TrackReason::kFrozen;
   if (!signs.silence || *signs.silence > tuning::common::kLongGap) return TrackReason::kNoReading;
   if (signs.isLate) return TrackReason::kLate;
@@ -39,7 +40,7 @@ TrackReason reasonFor(const Signs& signs, const PoseEstimate& estimate) {
   if (signs.mayBeLate) return TrackReason::kMayBeLate;
   // The stamps of the readings may be wrong instead.
   if (!signs.trustsOdometry) return TrackReason::kOdometry;
-  const bool isSpread = estimate.quality < kTracking || within(estimate) < kSpread;
+  const bool isSpread = estimate.quality < kTracking || narrow < kSpread;
   return isSpread ? TrackReason::kSpread : TrackReason::kFits;
 }
 
@@ -103,7 +104,7 @@ void judge(const Signs& signs, PoseEstimate& estimate) {
   const double odds = kConstant + kOfBelief * oddsWithin + kOfFitLately * fitLately +
                       kOfLead * lead + kOfUnconfirmed * unconfirmed + kOfUnusual * unusual;
   estimate.quality = estimate.share / (1.0 + std::exp(-odds));
-  estimate.reason = reasonFor(signs, estimate);
+  estimate.reason = reasonFor(signs, estimate, narrow);
   estimate.status = estimate.quality < kLost                ? TrackStatus::kLost
                     : estimate.reason == TrackReason::kFits ? TrackStatus::kTracking
                                                             : TrackStatus::kUncertain;

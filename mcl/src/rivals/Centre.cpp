@@ -34,6 +34,10 @@ Centre centreOf(const SampleSet& set) {
   return centre;
 }
 
+double apart(const Pose2& a, const Pose2& b) {
+  return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
+}
+
 bool isSame(const Pose2& rival, const Pose2& belief) {
   return distance(rival, belief) < hypothesis::kSamePlace &&
          std::abs(wrapAngle(rival.theta - belief.theta)) < hypothesis::kSameTurn;

@@ -12,6 +12,9 @@ struct Centre {
 };
 Centre centreOf(const SampleSet& set);
 
+/// Returns the distance of two poses [m] plus the turn between them [rad].
+double apart(const Pose2& a, const Pose2& b);
+
 /// Returns whether a hypothesis is at the same place as the belief, so that it is no alternative.
 bool isSame(const Pose2& rival, const Pose2& belief);
 

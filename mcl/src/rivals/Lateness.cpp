@@ -7,6 +7,7 @@
 
 #include "BeliefTuning.hpp"
 #include "CarriedOn.hpp"
+#include "Centre.hpp"
 #include "Kld.hpp"
 #include "Resampling.hpp"
 #include "RivalsTuning.hpp"
@@ -20,11 +21,6 @@ using tuning::common::kLongGap, tuning::common::kPlaceMetres;
 
 /// Number of their first random number; no other samples use these numbers.
 constexpr std::uint64_t kFirstNumber = 1ULL << 28;
-
-/// Returns distance [m] plus turn [rad].
-double apart(const Pose2& a, const Pose2& b) {
-  return distance(a, b) + std::abs(wrapAngle(a.theta - b.theta));
-}
 
 }  // namespace
 
@@ -50,25 +46,18 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
   return places;
 }
 
-bool Lateness::isLate(Timestamp stamp) const {
+Lateness::Suspicion Lateness::suspicion(Timestamp stamp) const {
   // A delay of one step is too small to be reported.
-  return inForce_ > 1 ||
-         std::ranges::any_of(belief_.jumps,
-                             [](const Jump& jump) {
-                               return jump.hypothesis.lead().nats() >
-                                      tuning::lead::kMostNatsOfAReading;
-                             }) ||
-         elsewhere(stamp) > kTold * tuning::delays::kLate;
-}
-
-bool Lateness::mayBeLate(Timestamp stamp) const { return elsewhere(stamp) > kLeftOut; }
-
-double Lateness::elsewhere(Timestamp stamp) const {
+  if (inForce_ > 1 || std::ranges::any_of(belief_.jumps, [](const Jump& jump) {
+        return jump.hypothesis.lead().nats() > tuning::lead::kMostNatsOfAReading;
+      }))
+    return Suspicion::kTold;
   const auto places = placesAt(stamp, Pose2{});
-  double sum = 0.0;
+  double elsewhere = 0.0;
   for (std::size_t i = 0; i < Delays::kCount; ++i)
-    if (distance(places[i], Pose2{}) > kPlaceMetres) sum += probability(i);
-  return sum;
+    if (distance(places[i], Pose2{}) > kPlaceMetres) elsewhere += probability(i);
+  if (elsewhere > kTold * tuning::delays::kLate) return Suspicion::kTold;
+  return elsewhere > kLeftOut ? Suspicion::kPossible : Suspicion::kNone;
 }
 
 PoseEstimate Lateness::widened(const PoseEstimate& e, Timestamp stamp) const {

@@ -54,13 +54,17 @@ class ORTUNG_API Lateness {
   /// Returns the delay in force [s].
   double seconds() const { return Delays::secondsOf(inForce_); }
   double probability(std::size_t delay) const { return delays_.probability(delay); }
-  /// Returns whether something says that readings are late: a delay of more than one step is in
-  /// force, a change of the delay is probable, or delays for which the pose at @p stamp would be
-  /// another one are more probable than they are before anything is known.
-  bool isLate(Timestamp stamp) const;
-  /// Returns whether delays for which the pose at @p stamp would be another one are too probable to
-  /// be left out, be it that nothing has told yet.
-  bool mayBeLate(Timestamp stamp) const;
+  /// Whether readings are late.
+  enum class Suspicion : std::uint8_t {
+    kNone,
+    /// Delays for which the pose would be another one are too probable to be left out, but nothing
+    /// says that there is one.
+    kPossible,
+    /// A delay of more than one step is in force, a change of the delay is probable, or delays for
+    /// which the pose would be another one are more probable than before anything is known.
+    kTold,
+  };
+  Suspicion suspicion(Timestamp stamp) const;
   /// Adds the uncertainty of the delay to an estimate for @p stamp that was made with the one in
   /// force.
   PoseEstimate widened(const PoseEstimate& e, Timestamp stamp) const;
@@ -83,8 +87,6 @@ class ORTUNG_API Lateness {
                                const Evidence& evidence);
 
  private:
-  /// Returns the probability of the delays for which the pose at @p stamp would be another one.
-  double elsewhere(Timestamp stamp) const;
   /// The hypothesis that another delay has begun.
   struct Jump {
     std::size_t delay;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "BeliefTuning.hpp"
@@ -117,9 +116,7 @@ double Rivals::weighAround(const Moment& moment, const Evidence& evidence) {
 double Rivals::travelledAround(const Moment& moment) {
   Around& rival = *around_;
   const Centre centre = centreOf(rival.anchor);
-  const double seen = distance(rival.centre, centre.pose) +
-                      std::abs(wrapAngle(centre.pose.theta - rival.centre.theta)) - rival.open -
-                      centre.open;
+  const double seen = apart(rival.centre, centre.pose) - rival.open - centre.open;
   // By readings alone, a slow robot needs several of them to travel far enough, so the centre is
   // kept.
   if (moment.travelled < trust::kStationary && seen < trust::kIndependent) return 0.0;
