@@ -83,9 +83,10 @@ Moment Mcl::Impl::momentOf(const std::vector<NewReading>& news, Timestamp stamp)
 Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
   Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
-  if (const auto fit = fitOfBelief(moment, said.before))
-    track->recovery.follow(*fit,
-                           reached.odometry && track->travelled.all < tuning::trust::kStationary);
+  if (track->isBlind)
+    track->recovery.followBlindly();
+  else if (const auto fit = fitOfBelief(moment, said.before))
+    track->recovery.follow(*fit, track->travelled.all < tuning::trust::kStationary);
   std::optional<Rivals::Moment> compared = competition(moment, said);
   const double logEvidence = said.logEvidence;
   std::vector<double> weights = predicted.drifted > 0
@@ -201,7 +202,8 @@ bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
     takeover->isConfirmed ? track->confirmation.forget() : track->confirmation.begin();
   }
   steps.because(Relocalization::kOtherPlace);
-  takeover->trustsOdometry ? track->trust.forget() : track->trust.lose();
+  if (takeover->odometry == Rivals::Odometry::kRight) track->trust.forget();
+  if (takeover->odometry == Rivals::Odometry::kWrong) track->trust.lose();
   return true;
 }
 

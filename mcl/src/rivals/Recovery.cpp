@@ -56,6 +56,7 @@ Recovery::Recovery(const MclConfig& config)
 
 void Recovery::follow(double fit, bool stands) {
   stands_ = stands;
+  isBlind_ = false;
   if (!known_) fast_ = slow_ = fit;
   known_ = true;
   now_ = fit;
@@ -70,6 +71,7 @@ bool Recovery::fitsBadly() const {
 }
 
 bool Recovery::isDoubtful() const {
+  if (isBlind_) return callsForSearch();
   return fitsBadly() || (rateSlow_ > 0.0 && known_ && stands_ && unusual_ >= kUnusualReadings);
 }
 
@@ -96,11 +98,13 @@ bool Recovery::isOfScatter(double best) const {
 }
 
 bool Recovery::callsForSearch() const {
+  if (isBlind_) return rateSlow_ > 0.0 && unusual_ >= kUnusualReadings;
   return rateSlow_ > 0.0 && known_ &&
          (fast_ < kFallenFit * slow_ || fast_ < kPoorFit || unusual_ >= kUnusualReadings);
 }
 
 bool Recovery::hasRecovered() const {
+  if (isBlind_) return unusual_ == 0;
   return known_ && fast_ > kRecoveredFit * slow_ && fast_ > kPoorFit;
 }
 

@@ -31,6 +31,10 @@ class ORTUNG_API Recovery {
   /// @param fit fit of the readings with the predicted belief, in [0, 1]
   /// @param stands whether the robot has been stationary by odometry since the readings before
   void follow(double fit, bool stands = false);
+  /// Takes a time step to which process noise has moved the belief, since nothing has said how the
+  /// robot moves. Such a belief is wide, and fits badly wherever the robot is, so it counts alone
+  /// whether the readings fit anywhere in it.
+  void followBlindly() { isBlind_ = true; }
   /// Forgets the averages, for another belief. The usual best fit stays known, since it belongs to
   /// the sensors and the map.
   void beginAnew() {
@@ -62,6 +66,7 @@ class ORTUNG_API Recovery {
   double rateSlow_;
   double now_ = 0.0;
   bool stands_ = false;
+  bool isBlind_ = false;
   double fast_ = 0.0;
   double slow_ = 0.0;
   int unusual_ = 0;      ///< number of readings in a row that fitted worse than usual

@@ -79,7 +79,8 @@ std::optional<Rivals::Takeover> Rivals::lookAround(const Moment& moment, const R
   rival.count(ratio, part, recovery.isUsual(evidence.fit(rival.samples())));
   const bool trustsOdometry = !around_->trust.isLost();
   if (rival.lead().isEnough()) {
-    Takeover takeover{rival.samples(), around::kShareTaken, trustsOdometry};
+    Takeover takeover{rival.samples(), around::kShareTaken,
+                      trustsOdometry ? Odometry::kRight : Odometry::kWrong};
     around_.reset();
     return takeover;
   }

@@ -53,11 +53,17 @@ class ORTUNG_API Rivals {
     std::optional<Pose2> odometry = {};
     std::vector<std::shared_ptr<const Weigher>> readings = {};
   };
+  /// What a hypothesis that has explained the readings says of odometry.
+  enum class Odometry {
+    kRight,    ///< it leads from one reading to the next
+    kWrong,    ///< it does not lead where the robot is
+    kUnheard,  ///< nothing: the robot was somewhere else all the time
+  };
   /// Samples that take this share of the belief.
   struct Takeover {
     SampleSet samples;
     double share;
-    bool trustsOdometry;
+    Odometry odometry;
     bool isConfirmed = true;  ///< whether as many readings support it as confirm a place
   };
 

@@ -98,7 +98,8 @@ std::optional<Rivals::Takeover> Rivals::takeOver(const Moment& moment) {
   // A place that is near was probably reached by motion that odometry did not count.
   const bool isNear =
       distance(centreOf(rival.samples()).pose, moment.predicted) < around::kLargestRing;
-  Takeover takeover{rival.samples(), 1.0, !isNear, isConfirmed};
+  Takeover takeover{rival.samples(), 1.0, isNear ? Odometry::kWrong : Odometry::kUnheard,
+                    isConfirmed};
   forget();
   return takeover;
 }
