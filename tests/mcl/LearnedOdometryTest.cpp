@@ -12,10 +12,12 @@
 #include "CarriedOn.hpp"
 #include "FakeRun.hpp"
 #include "LearnedOdometry.hpp"
-#include "NoiseRatio.hpp"
+#include "LessNoise.hpp"
+#include "OdometryModels.hpp"
 #include "PoseMatrix.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {
@@ -44,8 +46,11 @@ class Drive {
   /// @param said what odometry says @param isRead whether readings say where the robot is
   void step(const Pose2& said, bool isRead = true) {
     const double way = std::hypot(said.x, said.y);
-    truth = truth * Pose2{said.x * (1.0 + errors_.way), said.y * (1.0 + errors_.way),
-                          said.theta * (1.0 + errors_.turn) + errors_.veer * way};
+    const Pose2 ahead{errors_.ahead, 0.0, 0.0};
+    truth = truth * inverse(ahead) *
+            Pose2{said.x * (1.0 + errors_.way), said.y * (1.0 + errors_.way),
+                  said.theta * (1.0 + errors_.turn) + errors_.veer * way} *
+            ahead;
     learned.move(changeWith(learned.corrected(said), modelled_), refined);
     if (!isRead) return;
     const Vector off =
@@ -54,10 +59,10 @@ class Drive {
     alone.pose = {refined->pose.x + off.x(), refined->pose.y + off.y(),
                   refined->pose.theta + off.z()};
     alone.covariance = independent(kRead * kRead, kRead * kRead, kRead * kRead);
-    learned.compare(alone);
+    if (determinesPose) learned.compare(alone);
     const Matrix information = Matrix::Identity() / (kRead * kRead);
     const Matrix prior = matrixOf(refined->covariance);
-    learned.follow(information * off, information, prior, 1.0, determinesPose);
+    learned.follow(information, prior, 1.0);
     const Matrix after = (prior.inverse() + information).inverse();
     const Vector change = after * information * off;
     refined->pose = {refined->pose.x + change.x(), refined->pose.y + change.y(),
@@ -84,16 +89,19 @@ class Drive {
 };
 
 TEST(LearnedOdometry, FindsTheErrorsThatThereAre) {
-  const OdometryErrors truth{-0.18, 0.12, 0.05, 1.0};
+  const OdometryErrors truth{-0.18, 0.12, 0.05, 0.08, 1.0};
   Drive drive(truth);
   drive.wander(600);
   const OdometryErrors found = drive.learned.errors();
   EXPECT_NEAR(found.way, truth.way, 0.01);
   EXPECT_NEAR(found.turn, truth.turn, 0.02);
   EXPECT_NEAR(found.veer, truth.veer, 0.01);
+  EXPECT_NEAR(found.ahead, truth.ahead, 0.01);
+  const double turn = 0.5 * 1.12 + 0.05;
   const Pose2 corrected = drive.learned.corrected({1.0, 0.0, 0.5});
-  EXPECT_NEAR(corrected.x, 0.82, 0.01);
-  EXPECT_NEAR(corrected.theta, 0.5 * 1.12 + 0.05, 0.02);
+  EXPECT_NEAR(corrected.x, 0.82 + 0.08 * (std::cos(turn) - 1.0), 0.01);
+  EXPECT_NEAR(corrected.y, 0.08 * std::sin(turn), 0.01);
+  EXPECT_NEAR(corrected.theta, turn, 0.02);
 }
 
 TEST(LearnedOdometry, LeavesOdometryThatIsRightAsItIs) {
@@ -103,20 +111,13 @@ TEST(LearnedOdometry, LeavesOdometryThatIsRightAsItIs) {
   EXPECT_NEAR(found.way, 0.0, 0.01);
   EXPECT_NEAR(found.turn, 0.0, 0.02);
   EXPECT_NEAR(found.veer, 0.0, 0.01);
+  EXPECT_NEAR(found.ahead, 0.0, 0.01);
   EXPECT_EQ(drive.learned.corrected({}).x, 0.0);
-}
-
-// Distances that are all too long by a share are explained by ways that are, too.
-TEST(LearnedOdometry, LearnsNothingFromReadingsThatDetermineNoPose) {
-  Drive drive({-0.1, 0.0, 0.0, 1.0});
-  drive.determinesPose = false;
-  drive.wander(100);
-  EXPECT_EQ(drive.learned.errors().way, 0.0);
 }
 
 // Of a way that was never turned on nothing is known of turns.
 TEST(LearnedOdometry, KnowsNothingOfMotionsThatItHasNotSeen) {
-  Drive drive({0.1, 0.1, 0.0, 1.0});
+  Drive drive({0.1, 0.1, 0.0, 0.0, 1.0});
   for (int i = 0; i < 300; ++i) drive.step({0.1, 0.0, 0.0});
   const OdometryErrors found = drive.learned.errors();
   EXPECT_NEAR(found.way, 0.1, 0.01);
@@ -144,7 +145,7 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
   constexpr int kDrives = 200;
   for (int i = 0; i < kDrives; ++i) {
     const OdometryErrors errors{0.05 * random.gaussian(), 0.05 * random.gaussian(),
-                                0.01 * random.gaussian(), 1.0};
+                                0.03 * random.gaussian(), 0.1 * random.gaussian(), 1.0};
     Drive drive(errors, 1e-4, static_cast<std::uint64_t>(i));
     for (int k = 0; k < 50; ++k) drive.step({0.1, 0.0, k < 25 ? 0.05 : -0.02}, false);
     const Vector off(drive.truth.x - drive.refined->pose.x, drive.truth.y - drive.refined->pose.y,
@@ -158,7 +159,7 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
 
 // What readings say of the pose is said of the errors, too, and then the way back is known better.
 TEST(LearnedOdometry, WhatIsKnownMakesTheNextWayMoreCertain) {
-  Drive drive({-0.1, 0.0, 0.0, 1.0});
+  Drive drive({-0.1, 0.0, 0.0, 0.0, 1.0});
   EXPECT_EQ(drive.learned.expected(changeWith({1, 0, 0}, 0.1)).covariance[0], 0.1 * 0.1);
   drive.wander(300);
   const MotionChange next = drive.learned.expected(changeWith({1, 0, 0}, 0.1));
@@ -172,8 +173,7 @@ TEST(LearnedOdometry, ForgetsNoMoreThanItHasLearned) {
   const auto sigmaOfAMetre = [&] {
     return std::sqrt(drive.learned.expected(changeWith({1.0, 0.0, 0.0}, 0.0)).covariance[0]);
   };
-  drive.step({0.01, 0.0, 0.0});
-  const double atFirst = sigmaOfAMetre();
+  const double atFirst = 0.05;
   drive.wander(600);
   const double learned = sigmaOfAMetre();
   EXPECT_LT(learned, 0.3 * atFirst);
@@ -188,79 +188,178 @@ TEST(LearnedOdometry, ForgetsNoMoreThanItHasLearned) {
 
 // When the belief is another one, the robot is the same.
 TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
-  Drive drive({-0.1, 0.0, 0.0, 1.0});
+  Drive drive({-0.1, 0.0, 0.0, 0.0, 1.0});
   drive.wander(300);
   const OdometryErrors before = drive.learned.errors();
   drive.learned.forgetPose();
   // A pose that has nothing to do with the one before teaches nothing of the way in between.
-  const Matrix information = Matrix::Identity() / (kRead * kRead);
-  drive.learned.follow(information * Vector(3, 3, 1), information, Matrix::Identity(), 1.0, true);
+  PoseEstimate elsewhere;
+  elsewhere.pose = {3, 3, 1};
+  elsewhere.covariance = independent(1e-4, 1e-4, 1e-4);
+  drive.learned.compare(elsewhere);
   EXPECT_EQ(drive.learned.errors().way, before.way);
   EXPECT_EQ(drive.learned.errors().noise, before.noise);
 }
 
-TEST(LearnedOdometry, WhatIsNoNumberChangesNothing) {
-  Drive drive({-0.1, 0.0, 0.0, 1.0});
-  drive.wander(30);
-  const OdometryErrors before = drive.learned.errors();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  drive.learned.follow(Vector(nan, 0, 0), Matrix::Identity(), Matrix::Identity(), 1.0, true);
-  drive.learned.follow(Vector(1, 1, 1), Matrix::Identity(), Matrix::Zero(), 1.0, true);
-  EXPECT_EQ(drive.learned.errors().way, before.way);
-}
-
-TEST(LearnedOdometry, BelievesNoErrorThatIsAbsurd) {
-  Drive drive({4.0, 4.0, 2.0, 1.0});
+// A wheel that slips once is no wheel of another size.
+TEST(LearnedOdometry, LearnsLittleFromASlip) {
+  Drive drive({0.02, 0.0, 0.0, 0.0, 1.0});
   drive.wander(300);
-  EXPECT_EQ(drive.learned.errors().way, 0.5);
-  EXPECT_LE(std::abs(drive.learned.errors().turn), 0.5);
-  EXPECT_LE(std::abs(drive.learned.errors().veer), 0.3);
+  const OdometryErrors before = drive.learned.errors();
+  drive.truth = drive.truth * inverse(Pose2{0.8, 0.0, 0.0});
+  drive.wander(15);
+  EXPECT_NEAR(drive.learned.errors().way, before.way, 0.01);
 }
 
-TEST(NoiseRatio, FindsTheFactorOfWhatOdometryErrs) {
+TEST(OdometryModels, WhatIsNoNumberChangesNothing) {
+  OdometryModels models;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  OdometryModels::Effect effect = OdometryModels::Effect::Zero();
+  effect(0, 0) = 1.0;
+  const OdometryModels::Seen notFinite{Vector(nan, 0, 0), effect, models.errors(),
+                                       Matrix::Identity(), Matrix::Identity()};
+  const OdometryModels::Seen impossible{Vector(1, 1, 1), effect, models.errors(), Matrix::Zero(),
+                                        Matrix::Zero()};
+  for (const OdometryModels::Seen& seen : {notFinite, impossible}) {
+    models.followErrors(seen);
+    models.followNoise(seen);
+  }
+  EXPECT_FALSE(models.isLearned());
+  EXPECT_EQ(models.errors()[0], 0.0);
+  EXPECT_EQ(models.noise(), OdometryModels().noise());
+}
+
+TEST(OdometryModels, BelieveNoErrorThatIsAbsurd) {
+  OdometryModels models;
+  OdometryModels::Effect effect = OdometryModels::Effect::Zero();
+  effect.leftCols<3>().setIdentity();
+  const Matrix motion = 0.1 * Matrix::Identity();
+  for (int i = 0; i < 5000; ++i)
+    models.followErrors(
+        {Vector(4, 4, 2) - models.errors().head<3>(), effect, models.errors(), motion, motion});
+  EXPECT_EQ(models.errors()[0], 0.5);
+  EXPECT_EQ(models.errors()[1], 0.5);
+  EXPECT_NEAR(models.errors()[2], 0.3, 1e-9);
+}
+
+// Errors and noise at once: neither is known before the other is.
+TEST(OdometryModels, FindErrorsAndTheFactorOfTheNoise) {
   for (const double truth : {1.0, 0.25, 1.0 / 32}) {
-    NoiseRatio ratio;
+    OdometryModels models;
     Random random(3);
     const Matrix motion = Vector(4e-4, 4e-4, 1e-4).asDiagonal();
     const Matrix rest = 1e-6 * Matrix::Identity();
+    const OdometryModels::Errors errors(-0.06, 0.04, 0.03, 0.07);
     for (int i = 0; i < 500; ++i) {
+      OdometryModels::Effect effect = OdometryModels::Effect::Zero();
+      const double turn = i % 3 - 1.0;
+      effect.row(0) << 1.0, 0.0, 0.0, std::cos(turn) - 1.0;
+      effect.row(1) << 0.0, 0.0, 0.0, std::sin(turn);
+      effect.row(2) << 0.0, turn, 1.0, 0.0;
       const Matrix all = truth * motion + rest;
       const Vector off(std::sqrt(all(0, 0)) * random.gaussian(),
                        std::sqrt(all(1, 1)) * random.gaussian(),
                        std::sqrt(all(2, 2)) * random.gaussian());
-      ratio.follow(off, motion, rest);
+      // Odometry is corrected by what is known already.
+      const OdometryModels::Seen seen{effect * (errors - models.errors()) + off, effect,
+                                      models.errors(), motion, rest};
+      models.followNoise(seen);
+      models.followErrors(seen);
+      models.drift(1.0, turn);
     }
-    EXPECT_GT(ratio.value(), 0.7 * truth) << truth;
-    EXPECT_LT(ratio.value(), 1.4 * truth) << truth;
+    EXPECT_GT(models.noise(), 0.7 * truth) << truth;
+    EXPECT_LT(models.noise(), 1.4 * truth) << truth;
+    const OdometryModels::Errors apart = models.errors() - errors;
+    const double squares = apart.dot(models.covariance().inverse() * apart);
+    EXPECT_LT(squares, 16.0) << truth << ": " << models.errors().transpose();
+    EXPECT_LT(apart.cwiseAbs().maxCoeff(), 0.015) << truth;
   }
 }
 
 // Where readings scatter more than odometry, they say nothing of it: it stays what the model says.
-TEST(NoiseRatio, KeepsTheModelsNoiseAsLongAsNothingIsKnown) {
-  NoiseRatio ratio;
+TEST(OdometryModels, KeepTheModelsNoiseAsLongAsNothingIsKnown) {
+  OdometryModels models;
   Random random(4);
   const Matrix motion = 1e-6 * Matrix::Identity();
   const Matrix rest = 1e-2 * Matrix::Identity();
   for (int i = 0; i < 300; ++i)
-    ratio.follow(0.1 * Vector(random.gaussian(), random.gaussian(), random.gaussian()), motion,
-                 rest);
-  EXPECT_GT(ratio.value(), 0.9);
+    models.followNoise({0.1 * Vector(random.gaussian(), random.gaussian(), random.gaussian()),
+                        OdometryModels::Effect::Zero(), models.errors(), motion, rest});
+  EXPECT_GT(models.noise(), 0.9);
 }
 
 // One step that a wheel slips counts a little; a floor on which all do is learned again.
-TEST(NoiseRatio, LearnsWorseOdometryAgain) {
-  NoiseRatio ratio;
+TEST(OdometryModels, LearnWorseOdometryAgain) {
+  OdometryModels models;
+  const OdometryModels::Effect none = OdometryModels::Effect::Zero();
   const Matrix motion = 1e-4 * Matrix::Identity();
   const Matrix rest = 1e-8 * Matrix::Identity();
-  for (int i = 0; i < 200; ++i) ratio.follow(Vector(1e-3, -1e-3, 1e-3), motion, rest);
-  const double good = ratio.value();
+  for (int i = 0; i < 200; ++i)
+    models.followNoise({Vector(1e-3, -1e-3, 1e-3), none, models.errors(), motion, rest});
+  const double good = models.noise();
   EXPECT_LT(good, 0.05);
-  ratio.follow(Vector(0.5, 0, 0), motion, rest);
-  EXPECT_LT(ratio.value(), 2.0 * good);
-  for (int i = 0; i < 200; ++i) ratio.follow(Vector(0.015, -0.015, 0.015), motion, rest);
-  EXPECT_GT(ratio.value(), 0.9);
-  ratio.follow(Vector(std::numeric_limits<double>::quiet_NaN(), 0, 0), motion, rest);
-  EXPECT_TRUE(std::isfinite(ratio.value()));
+  models.followNoise({Vector(0.5, 0, 0), none, models.errors(), motion, rest});
+  EXPECT_LT(models.noise(), 2.0 * good);
+  for (int i = 0; i < 200; ++i)
+    models.followNoise({Vector(0.015, -0.015, 0.015), none, models.errors(), motion, rest});
+  EXPECT_GT(models.noise(), 0.9);
+}
+
+// Samples: the spread of the motion model, seven of eight narrower by the root of the factor, and
+// not otherwise.
+TEST(LessNoise, NarrowsSevenOfEightSamples) {
+  constexpr std::size_t kCount = 80'000;
+  const OdometryMotion motion(OdometryNoise{0.2, 0.1, 0.1, 0.1});
+  const auto spreadOf = [&](double noise, bool ofAllNoise) {
+    SampleSet set;
+    set.resize(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) set.theta[i] = 0.5F;
+    const Pose2 change{1.0, 0.2, 0.7};
+    sampleMotion(motion, MovableSamples{set.x, set.y, set.theta}, change, change, noise, 5, 6, 0);
+    const Pose2 expected = Pose2{0.0, 0.0, 0.5} * change;
+    Vector squares = Vector::Zero();
+    double n = 0.0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if ((i % 8 == 0) != ofAllNoise) continue;
+      const Vector off = difference({set.x[i], set.y[i], set.theta[i]}, expected);
+      squares += off.cwiseAbs2();
+      n += 1.0;
+    }
+    return Vector((squares / n).cwiseSqrt());
+  };
+  const Vector whole = spreadOf(1.0, false);
+  const Vector narrow = spreadOf(1.0 / 16.0, false);
+  const Vector rest = spreadOf(1.0 / 16.0, true);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(narrow[k] / whole[k], 0.25, 0.01) << k;
+    EXPECT_NEAR(rest[k] / whole[k], 1.0, 0.03) << k;
+  }
+}
+
+// A model that corrects odometry keeps its mean.
+TEST(LessNoise, NarrowsToTheModelsMean) {
+  SampleSet set;
+  set.resize(800);
+  OdometryCorrection correction;
+  correction.wayScale = 1.2;
+  const OdometryMotion motion(OdometryNoise{0.0, 0.0, 0.1, 0.0}, correction);
+  sampleMotion(motion, MovableSamples{set.x, set.y, set.theta}, {1.0, 0.0, 0.0}, {1.2, 0.0, 0.0},
+               1e-6, 1, 2, 1);
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if ((i + 1) % 8 != 0) EXPECT_NEAR(set.x[i], 1.2, 1e-3);
+  }
+}
+
+// A turn over the angle at which headings wrap is no large error.
+TEST(LessNoise, HeadingsMayWrap) {
+  SampleSet set;
+  set.resize(1000);
+  for (float& theta : set.theta) theta = 3.0F;
+  const OdometryMotion motion(OdometryNoise{0.05, 0.0, 0.0, 0.0});
+  const Pose2 turn{0.0, 0.0, 0.3};
+  sampleMotion(motion, MovableSamples{set.x, set.y, set.theta}, turn, turn, 0.5, 1, 2, 1);
+  for (const float theta : set.theta)
+    EXPECT_NEAR(wrapAngle(static_cast<double>(theta) - 3.3), 0.0, 0.2);
 }
 
 // The whole filter: wheels that are 15 % larger than odometry thinks.

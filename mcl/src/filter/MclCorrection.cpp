@@ -93,7 +93,8 @@ Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicte
                                     ? takeInUnsure(moment, std::move(said), predicted.drifted)
                                     : takeIn(moment, said);
   const double fit = fitOfBelief(moment, weights).value_or(0.0);
-  track->recovery.followBest(fit);
+  track->recovery.followBest(fit,
+                             std::min(1.0, track->travelled.all / tuning::common::kIndependent));
   if (compared) compared->fit = fit;
   track->confirmation.count(track->recovery.unusual() == 0, track->travelled.metres);
   return {std::move(moment), std::move(weights), std::move(compared), logEvidence};

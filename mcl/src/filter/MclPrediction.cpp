@@ -5,6 +5,7 @@
 #include "BeliefTuning.hpp"
 #include "Drift.hpp"
 #include "FilterTuning.hpp"
+#include "LessNoise.hpp"
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
 #include "MotionTuning.hpp"
@@ -71,9 +72,9 @@ void Mcl::Impl::move(const MoveSome& moveSome) {
 }
 
 void Mcl::Impl::moveBy(const Pose2& odometry) {
+  const LearnedOdometry& learned = parts.polish.odometry();
   const Pose2 change =
-      reached.odometry ? parts.polish.odometry().corrected(inverse(*reached.odometry) * odometry)
-                       : Pose2{};
+      reached.odometry ? learned.corrected(inverse(*reached.odometry) * odometry) : Pose2{};
   reached.odometry = odometry;
   const double come = std::hypot(change.x, change.y);
   track->travelled.metres += come;
@@ -82,9 +83,11 @@ void Mcl::Impl::moveBy(const Pose2& odometry) {
   const MotionChange its = changeOf(*tools.motion, change, seed, stream(Purpose::kMotion));
   parts.polish.move(its);
   parts.biases.move(its);
-  parts.separation.move(parts.polish.odometry().expected(its));
+  parts.separation.move(learned.expected(its));
+  const double noise = learned.errors().noise;
   move([&](const MovableSamples& some, std::size_t first) {
-    tools.motion->sampleMotion(some, change, seed, stream(Purpose::kMotion), first);
+    sampleMotion(*tools.motion, some, change, its.mean, noise, seed, stream(Purpose::kMotion),
+                 first);
   });
 }
 

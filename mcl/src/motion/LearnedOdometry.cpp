@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "MotionTuning.hpp"
@@ -13,93 +12,146 @@ namespace {
 
 using namespace tuning::odometry;
 
-using Vector = LearnedOdometry::Vector;
+using Effect = OdometryModels::Effect;
+using ErrorMatrix = OdometryModels::ErrorMatrix;
 using Matrix = LearnedOdometry::Matrix;
 
-/// Returns the variances of what is not known of a robot.
-Vector prior() { return {kScale * kScale, kScale * kScale, kVeer * kVeer}; }
-
-/// Returns what the systematic errors (columns) make of a change of pose, in the robot's frame.
-Matrix effectOn(const Pose2& change) {
-  Matrix effect = Matrix::Zero();
-  effect(0, 0) = change.x;
-  effect(1, 0) = change.y;
-  effect(2, 1) = change.theta;
-  effect(2, 2) = std::hypot(change.x, change.y);
+/// Returns what the systematic errors make of a change of pose that was corrected by @p errors, in
+/// the robot's frame.
+Effect effectOn(const Pose2& change, const OdometryErrors& errors) {
+  const double way = std::hypot(change.x, change.y);
+  const double c = std::cos(change.theta);
+  const double s = std::sin(change.theta);
+  Effect effect = Effect::Zero();
+  effect.row(0) << change.x, -errors.ahead * s * change.theta, -errors.ahead * s * way, c - 1.0;
+  effect.row(1) << change.y, errors.ahead * c * change.theta, errors.ahead * c * way, s;
+  effect.row(2) << 0.0, change.theta, way, 0.0;
   return effect;
+}
+
+/// Returns the same in the field frame, for a robot with this heading.
+Effect effectOn(const Pose2& change, const OdometryErrors& errors, double heading) {
+  return Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+         effectOn(change, errors);
+}
+
+/// What maps, tables and correlated readings leave open of a pose by readings alone.
+Matrix open() {
+  return Eigen::Vector3d(kMetres * kMetres, kMetres * kMetres, kRadians * kRadians).asDiagonal();
 }
 
 }  // namespace
 
-LearnedOdometry::LearnedOdometry() : covariance_(prior().asDiagonal()) {}
-
-OdometryErrors LearnedOdometry::errors() const {
-  return {mean_.x(), mean_.y(), mean_.z(), noise_.value()};
+LearnedOdometry::Way::Way(const PoseEstimate& from) : pose(from), motion(from) {
+  motion.covariance.fill(0.0);
 }
 
+void LearnedOdometry::Way::move(const MotionChange& model, const OdometryErrors& errors) {
+  const Pose2 before = pose.pose;
+  pose = carriedOn(pose, model, 0.0);
+  motion = carriedOn(motion, model);
+  effect =
+      derivativeOfMoved(before, pose.pose) * effect + effectOn(model.mean, errors, before.theta);
+  come += std::hypot(model.mean.x, model.mean.y) + std::abs(model.mean.theta);
+}
+
+OdometryModels::Seen LearnedOdometry::Way::to(const PoseEstimate& alone,
+                                              const OdometryModels::Errors& used) const {
+  return {difference(alone.pose, pose.pose), effect, used, matrixOf(motion.covariance),
+          matrixOf(pose.covariance) + matrixOf(alone.covariance)};
+}
+
+OdometryErrors LearnedOdometry::errors() const {
+  const OdometryModels::Errors& mean = models_.errors();
+  return {mean[0], mean[1], mean[2], mean[3], models_.noise()};
+}
+
+/// The point that odometry follows turns and moves first; the robot's frame is ahead of it.
 Pose2 LearnedOdometry::corrected(const Pose2& change) const {
-  const Vector error = effectOn(change) * mean_;
-  return {change.x + error.x(), change.y + error.y(), change.theta + error.z()};
+  const OdometryErrors its = errors();
+  const double turn = change.theta * (1.0 + its.turn) + its.veer * std::hypot(change.x, change.y);
+  return {change.x * (1.0 + its.way) + its.ahead * (std::cos(turn) - 1.0),
+          change.y * (1.0 + its.way) + its.ahead * std::sin(turn), turn};
 }
 
 MotionChange LearnedOdometry::expected(const MotionChange& model) const {
-  return isLearned_ ? known(model) : model;
+  return models_.isLearned() ? known(model) : model;
 }
 
 MotionChange LearnedOdometry::known(const MotionChange& model) const {
-  const Matrix effect = effectOn(model.mean);
+  const Effect effect = effectOn(model.mean, errors());
   MotionChange its = model;
-  inPlace(its.covariance) =
-      noise_.value() * matrixOf(model.covariance) + effect * covariance_ * effect.transpose();
+  inPlace(its.covariance) = models_.noise() * matrixOf(model.covariance) +
+                            effect * models_.covariance() * effect.transpose();
   return its;
 }
 
 void LearnedOdometry::move(const MotionChange& model, std::optional<PoseEstimate>& refined) {
-  if (alone_) alone_ = {carriedOn(alone_->pose, model, 0.0), carriedOn(alone_->motion, model)};
-  if (!refined) return;
-  const Pose2 before = refined->pose;
-  refined = carriedOn(*refined, known(model));
-  const Matrix effect =
-      Eigen::AngleAxisd(before.theta, Vector::UnitZ()).toRotationMatrix() * effectOn(model.mean);
-  const Matrix forward = derivativeOfMoved(before, refined->pose);
-  const Matrix mixed = forward * cross_ * effect.transpose();
-  inPlace(refined->covariance) += mixed + mixed.transpose();
-  cross_ = forward * cross_ + effect * covariance_;
-  const double way = std::hypot(model.mean.x, model.mean.y);
-  const double scale = kScaleDrift * kScaleDrift;
-  const Vector drift(way * scale, std::abs(model.mean.theta) * scale,
-                     way * kVeerDrift * kVeerDrift);
-  // Without readings that say something, it is known no worse than at first.
-  const Vector known = covariance_.diagonal();
-  covariance_.diagonal() = (known + drift).cwiseMin(known.cwiseMax(prior()));
-}
-
-void LearnedOdometry::follow(const Vector& pull, const Matrix& information, const Matrix& predicted,
-                             double times, bool determinesPose) {
-  const Matrix prior = times * predicted;
-  const Matrix precision = prior.inverse();
-  const Matrix posterior = (precision + information / times).inverse();
-  const Matrix gain = cross_.transpose() * precision;
-  const Vector change = gain * (posterior * pull) / times;
-  const Matrix covariance = covariance_ - gain * (prior - posterior) * gain.transpose();
-  if (!change.allFinite() || !covariance.allFinite()) return;
-  cross_ = posterior * gain.transpose();
-  if (!determinesPose) return;
-  const Vector most(kMostScale, kMostScale, kMostVeer);
-  mean_ = (mean_ + change).cwiseMin(most).cwiseMax(-most);
-  covariance_ = 0.5 * (covariance + covariance.transpose());
-  isLearned_ = true;
-}
-
-void LearnedOdometry::compare(const std::optional<PoseEstimate>& alone) {
-  if (alone && alone_) {
-    noise_.follow(difference(alone->pose, alone_->pose.pose), matrixOf(alone_->motion.covariance),
-                  matrixOf(alone_->pose.covariance) + matrixOf(alone->covariance));
+  for (std::optional<Way>* way : {&step_, &way_})
+    if (*way) (*way)->move(model, errors());
+  if (refined) {
+    const Pose2 before = refined->pose;
+    refined = carriedOn(*refined, known(model));
+    const Effect effect = effectOn(model.mean, errors(), before.theta);
+    const Matrix forward = derivativeOfMoved(before, refined->pose);
+    const Matrix mixed = forward * cross_ * effect.transpose();
+    inPlace(refined->covariance) += mixed + mixed.transpose();
+    cross_ = forward * cross_ + effect * models_.covariance();
   }
-  alone_.reset();
-  if (!alone) return;
-  alone_ = {*alone, *alone};
-  alone_->motion.covariance.fill(0.0);
+  const double metres = std::hypot(model.mean.x, model.mean.y);
+  settled_.drift(metres, model.mean.theta);
+  models_.drift(metres, model.mean.theta);
+}
+
+void LearnedOdometry::follow(const Matrix& information, const Matrix& predicted, double times) {
+  const Matrix precision = (times * predicted).inverse();
+  const Matrix posterior = (precision + information / times).inverse();
+  const Effect cross = posterior * precision * cross_;
+  if (cross.allFinite()) cross_ = cross;
+}
+
+void LearnedOdometry::compare(const PoseEstimate& alone) {
+  if (step_) {
+    const OdometryModels::Seen step = step_->to(alone, models_.errors());
+    settled_.followNoise(step);
+    models_.followNoise(step);
+  }
+  if (way_ && way_->come >= way_->compared + kWay) learnErrors(alone);
+  if (!way_ || (way_->compared == way_->come && isLong(alone))) {
+    settled_ = models_;
+    way_.emplace(alone);
+  }
+  step_.emplace(alone);
+}
+
+/// What the whole way says takes the place of what a part of it has said before.
+void LearnedOdometry::learnErrors(const PoseEstimate& alone) {
+  const ErrorMatrix before = models_.covariance();
+  const OdometryModels::Errors used = models_.errors();
+  OdometryModels::Seen way = way_->to(alone, used);
+  way.rest += open();
+  models_ = settled_;
+  models_.followErrors(way);
+  way_->compared = way_->come;
+  // Where odometry would have led to by what is known now.
+  const Eigen::Vector3d shift = way_->effect * (models_.errors() - used);
+  for (PoseEstimate* each : {&way_->pose, &way_->motion})
+    each->pose = {each->pose.x + shift.x(), each->pose.y + shift.y(),
+                  wrapAngle(each->pose.theta + shift.z())};
+  // The refined pose depends on the errors as before, which are less uncertain now.
+  const Effect cross = cross_ * before.inverse() * models_.covariance();
+  if (cross.allFinite()) cross_ = cross;
+}
+
+/// A way is long enough once what readings leave open at its ends does not hide the least noise of
+/// odometry on it.
+bool LearnedOdometry::isLong(const PoseEstimate& alone) const {
+  const auto isHidden = [&](const auto& variance, double floor) {
+    return kClear * (variance(way_->pose.covariance) + variance(alone.covariance) + floor) >
+           variance(way_->motion.covariance);
+  };
+  return way_->come >= kLongest || !(isHidden(positionVariance, 2.0 * kMetres * kMetres) ||
+                                     isHidden(headingVariance, kRadians * kRadians));
 }
 
 }  // namespace ortung

@@ -24,9 +24,26 @@ namespace odometry {
 /// [share] Prior sigma of the error in scale of ways and of turns: raw odometry of the logs errs by
 /// up to 18 %, that of most robots by a few.
 ORTUNG_CONSTANT(odometry, kScale, 0.05);
-/// [rad/m] Prior sigma of the turn per metre that odometry does not count: 0.6
-/// degrees. With three times as much, sena_telecom is lost for longer while there are no readings.
-ORTUNG_CONSTANT(odometry, kVeer, 0.01);
+/// [rad/m] Prior sigma of the turn per metre that odometry does not count: wheels 0.4 m apart one
+/// of which is 1 % larger turn a robot by 0.025 rad per metre.
+ORTUNG_CONSTANT(odometry, kVeer, 0.03);
+/// [m] Prior sigma of how far ahead of the point between the wheels the robot's frame is, whose
+/// pose the readings tell. Raw logs have it by 3 to 10 cm; how far the scanner is ahead is easily
+/// measured wrong by a few.
+ORTUNG_CONSTANT(odometry, kAhead, 0.1);
+/// [m] Sigma of what maps, tables and correlated readings leave open of a position by readings
+/// alone. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kMetres, 0.01);
+/// [rad] Likewise of a heading. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kRadians, 0.005);
+/// [m + rad] Way after which poses by readings alone are compared. Chosen by hand: on less, delays
+/// between odometry and readings look like errors.
+ORTUNG_CONSTANT(odometry, kWay, 1.0);
+/// [m + rad] Longest way on which odometry is compared with the same pose. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kLongest, 5.0);
+/// Ratio of the variance by the motion model's noise to that by readings from which a way is long
+/// enough: half of the ratio of the greatest noise to the least.
+ORTUNG_CONSTANT(odometry, kClear, 16.0);
 /// [share/sqrt(m), share/sqrt(rad)] Drift of the errors in scale, since loads, tyres and floors
 /// change. Chosen by hand: 5 % in 100 m.
 ORTUNG_CONSTANT(odometry, kScaleDrift, 0.005);
@@ -36,6 +53,12 @@ ORTUNG_CONSTANT(odometry, kVeerDrift, 0.001);
 ORTUNG_CONSTANT(odometry, kMostScale, 0.5);
 /// [rad/m] Greatest turn per metre that is believed. Chosen by hand.
 ORTUNG_CONSTANT(odometry, kMostVeer, 0.3);
+/// [m] Greatest distance of the robot's frame from that point that is believed. Chosen by hand:
+/// half of a large robot.
+ORTUNG_CONSTANT(odometry, kMostAhead, 0.5);
+/// Of so many samples one is moved by all of the motion model's noise, however good odometry is.
+/// Chosen by hand: of the smallest set of samples dozens.
+ORTUNG_CONSTANT(odometry, kOfAllNoise, std::size_t{8});
 /// [nats] Evidence that it takes before less noise is believed than the motion model has. Chosen by
 /// hand.
 ORTUNG_CONSTANT(odometry, kCaution, 5.0);

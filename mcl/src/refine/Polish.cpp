@@ -113,14 +113,13 @@ bool explains(const PoseEstimate& predicted, const Solution& solution, double ti
 }
 
 /// Returns the pose by the readings alone, which determine one.
-std::optional<PoseEstimate> aloneOf(const Solution& solution) {
-  const Eigen::LDLT<Matrix> information(matrixOf(solution.slope.information));
-  const Vector off = information.solve(Vector(solution.slope.pull.data()));
-  if (!off.allFinite()) return std::nullopt;
+std::optional<PoseEstimate> aloneOf(const std::vector<const Polishable*>& readings,
+                                    const Solution& near) {
+  const auto solution = agreement(readings, {near.pose, Matrix::Zero()}, near.slopeAt, near.slope);
+  if (!solution) return std::nullopt;
   PoseEstimate alone;
-  alone.pose = {solution.slopeAt.x + off.x(), solution.slopeAt.y + off.y(),
-                wrapAngle(solution.slopeAt.theta + off.z())};
-  inPlace(alone.covariance) = information.solve(Matrix::Identity());
+  alone.pose = solution->pose;
+  inPlace(alone.covariance) = solution->covariance;
   return alone;
 }
 
@@ -198,8 +197,9 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
     prior = between(*predicted, *place_, std::min(1.0, kRandomRatio / times_));
     solution = agreement(readings, prior, estimate.pose, slope);
   }
-  const bool determinesPose = solution && determinedBy(solution->slope) == Determined::kAll;
-  if (learnsOdometry_) odometry_.compare(determinesPose ? aloneOf(*solution) : std::nullopt);
+  if (learnsOdometry_ && solution && determinedBy(solution->slope) == Determined::kAll) {
+    if (const auto alone = aloneOf(readings, *solution)) odometry_.compare(*alone);
+  }
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();
     return;
@@ -211,8 +211,7 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
   }
   // Where estimates err by more than they promise, readings say less of odometry, too.
   if (follows && learnsOdometry_) {
-    odometry_.follow(pullOn(place_->pose, *solution), matrixOf(solution->slope.information),
-                     matrixOf(place_->covariance), times_, determinesPose);
+    odometry_.follow(matrixOf(solution->slope.information), matrixOf(place_->covariance), times_);
   } else
     odometry_.separate();
   const Matrix blur =

@@ -75,7 +75,7 @@ bool Recovery::isDoubtful() const {
   return fitsBadly() || (rateSlow_ > 0.0 && known_ && stands_ && unusual_ >= kUnusualReadings);
 }
 
-void Recovery::followBest(double fit) {
+void Recovery::followBest(double fit, double part) {
   if (!best_) best_ = lately_ = fit;
   lately_ += rateFast_ * (fit - lately_);
   unusual_ = isUsual(fit) || isOfScatter(fit) ? 0 : unusual_ + 1;
@@ -84,7 +84,7 @@ void Recovery::followBest(double fit) {
     scatter_ += rateSlow_ * (std::min(std::abs(fit - *best_), kMostScatter) - scatter_);
   // The fit in a crowd that stays around the robot must not become usual, since then places that
   // fit only a little would be accepted.
-  *best_ += (fit < *best_ ? kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
+  *best_ += (fit < *best_ ? part * kRateWhileFallen : 1.0) * rateSlow_ * (fit - *best_);
 }
 
 bool Recovery::isUsual(double best) const {
@@ -98,7 +98,7 @@ bool Recovery::isOfScatter(double best) const {
 }
 
 bool Recovery::callsForSearch() const {
-  if (isBlind_) return rateSlow_ > 0.0 && unusual_ >= kUnusualReadings;
+  if (isBlind_) return rateSlow_ > 0.0 && unusual_ > 0;
   return rateSlow_ > 0.0 && known_ &&
          (fast_ < kFallenFit * slow_ || fast_ < kPoorFit || unusual_ >= kUnusualReadings);
 }

@@ -55,7 +55,8 @@ class ORTUNG_API Recovery {
   /// Takes the best fit of the same readings.
   /// @param fit fit with the posterior belief, i.e. with the weights that the readings have given
   ///   it. So it does not matter how wide the belief has become over a long distance.
-  void followBest(double fit);
+  /// @param part how independent they are of the readings before, in [0, 1]
+  void followBest(double fit, double part = 1.0);
   /// Returns whether a best fit is about as good as usual.
   bool isUsual(double best) const;
 
@@ -71,7 +72,8 @@ class ORTUNG_API Recovery {
   double slow_ = 0.0;
   int unusual_ = 0;      ///< number of readings in a row that fitted worse than usual
   double lately_ = 0.0;  ///< its short-term average
-  /// Usual best fit: a slow average that falls more slowly than it rises.
+  /// Usual best fit: a slow average that falls more slowly than it rises, and only as the robot
+  /// gets on: many readings from one place among people say no more than one.
   std::optional<double> best_;
   double scatter_ = 0.0;  ///< by how much best fits usually differ from it
   bool known_ = false;
