@@ -53,7 +53,9 @@ TEST(ChangedMap, AWallThatStandsHalfAMetreIntoTheCorridorIsNoticedAndNothingElse
                         "--any-world"});
   };
   const auto before = figures();
-  EXPECT_EQ(before["map_gone_cells"], 0);
+  // The map has the leaf of a door at (7.8, 1.6), 0.7 m long, which is open in most passes.
+  const int leaf = before["map_gone_cells"].get<int>();
+  EXPECT_LE(leaf, 7);
   EXPECT_EQ(before["map_new_cells"], 0);
 
   // The wall of the corridor is at y = -21.5 m; 1.5 m of it are drawn at -22 m.
@@ -64,8 +66,8 @@ TEST(ChangedMap, AWallThatStandsHalfAMetreIntoTheCorridorIsNoticedAndNothingElse
   }
   map.write();
   const auto after = figures();
-  EXPECT_GE(after["map_gone_cells"].get<int>(), 5) << "of 15";
-  EXPECT_LE(after["map_gone_cells"].get<int>(), 18);
+  EXPECT_GE(after["map_gone_cells"].get<int>(), leaf + 5) << "of 15";
+  EXPECT_LE(after["map_gone_cells"].get<int>(), 18 + 7);
   EXPECT_LT(after["position_median_m"].get<double>(),
             1.1 * before["position_median_m"].get<double>());
 }

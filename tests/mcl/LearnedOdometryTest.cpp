@@ -12,9 +12,9 @@
 #include "CarriedOn.hpp"
 #include "FakeRun.hpp"
 #include "LearnedOdometry.hpp"
-#include "LessNoise.hpp"
 #include "OdometryModels.hpp"
 #include "PoseMatrix.hpp"
+#include "ScaledNoise.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
@@ -46,11 +46,11 @@ class Drive {
   /// @param said what odometry says @param isRead whether readings say where the robot is
   void step(const Pose2& said, bool isRead = true) {
     const double way = std::hypot(said.x, said.y);
-    const Pose2 ahead{errors_.ahead, 0.0, 0.0};
-    truth = truth * inverse(ahead) *
+    const Pose2 frame{errors_.ahead, 0.0, errors_.turned};
+    truth = truth * inverse(frame) *
             Pose2{said.x * (1.0 + errors_.way), said.y * (1.0 + errors_.way),
                   said.theta * (1.0 + errors_.turn) + errors_.veer * way} *
-            ahead;
+            frame;
     learned.move(changeWith(learned.corrected(said), modelled_), refined);
     if (!isRead) return;
     const Vector off =
@@ -89,7 +89,7 @@ class Drive {
 };
 
 TEST(LearnedOdometry, FindsTheErrorsThatThereAre) {
-  const OdometryErrors truth{-0.18, 0.12, 0.05, 0.08, 1.0};
+  const OdometryErrors truth{-0.18, 0.12, 0.05, 0.08, -0.03, 1.0};
   Drive drive(truth);
   drive.wander(600);
   const OdometryErrors found = drive.learned.errors();
@@ -99,8 +99,9 @@ TEST(LearnedOdometry, FindsTheErrorsThatThereAre) {
   EXPECT_NEAR(found.ahead, truth.ahead, 0.01);
   const double turn = 0.5 * 1.12 + 0.05;
   const Pose2 corrected = drive.learned.corrected({1.0, 0.0, 0.5});
+  EXPECT_NEAR(found.turned, truth.turned, 0.01);
   EXPECT_NEAR(corrected.x, 0.82 + 0.08 * (std::cos(turn) - 1.0), 0.01);
-  EXPECT_NEAR(corrected.y, 0.08 * std::sin(turn), 0.01);
+  EXPECT_NEAR(corrected.y, 0.08 * std::sin(turn) + 0.03 * 0.82, 0.02);
   EXPECT_NEAR(corrected.theta, turn, 0.02);
 }
 
@@ -117,7 +118,7 @@ TEST(LearnedOdometry, LeavesOdometryThatIsRightAsItIs) {
 
 // Of a way that was never turned on nothing is known of turns.
 TEST(LearnedOdometry, KnowsNothingOfMotionsThatItHasNotSeen) {
-  Drive drive({0.1, 0.1, 0.0, 0.0, 1.0});
+  Drive drive({0.1, 0.1, 0.0, 0.0, 0.0, 1.0});
   for (int i = 0; i < 300; ++i) drive.step({0.1, 0.0, 0.0});
   const OdometryErrors found = drive.learned.errors();
   EXPECT_NEAR(found.way, 0.1, 0.01);
@@ -145,7 +146,8 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
   constexpr int kDrives = 200;
   for (int i = 0; i < kDrives; ++i) {
     const OdometryErrors errors{0.05 * random.gaussian(), 0.05 * random.gaussian(),
-                                0.03 * random.gaussian(), 0.1 * random.gaussian(), 1.0};
+                                0.03 * random.gaussian(), 0.1 * random.gaussian(),
+                                0.02 * random.gaussian(), 1.0};
     Drive drive(errors, 1e-4, static_cast<std::uint64_t>(i));
     for (int k = 0; k < 50; ++k) drive.step({0.1, 0.0, k < 25 ? 0.05 : -0.02}, false);
     const Vector off(drive.truth.x - drive.refined->pose.x, drive.truth.y - drive.refined->pose.y,
@@ -159,7 +161,7 @@ TEST(LearnedOdometry, WaysWithoutReadingsAreAsUncertainAsTheyErr) {
 
 // What readings say of the pose is said of the errors, too, and then the way back is known better.
 TEST(LearnedOdometry, WhatIsKnownMakesTheNextWayMoreCertain) {
-  Drive drive({-0.1, 0.0, 0.0, 0.0, 1.0});
+  Drive drive({-0.1, 0.0, 0.0, 0.0, 0.0, 1.0});
   EXPECT_EQ(drive.learned.expected(changeWith({1, 0, 0}, 0.1)).covariance[0], 0.1 * 0.1);
   drive.wander(300);
   const MotionChange next = drive.learned.expected(changeWith({1, 0, 0}, 0.1));
@@ -188,7 +190,7 @@ TEST(LearnedOdometry, ForgetsNoMoreThanItHasLearned) {
 
 // When the belief is another one, the robot is the same.
 TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
-  Drive drive({-0.1, 0.0, 0.0, 0.0, 1.0});
+  Drive drive({-0.1, 0.0, 0.0, 0.0, 0.0, 1.0});
   drive.wander(300);
   const OdometryErrors before = drive.learned.errors();
   drive.learned.forgetPose();
@@ -203,7 +205,7 @@ TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
 
 // A wheel that slips once is no wheel of another size.
 TEST(LearnedOdometry, LearnsLittleFromASlip) {
-  Drive drive({0.02, 0.0, 0.0, 0.0, 1.0});
+  Drive drive({0.02, 0.0, 0.0, 0.0, 0.0, 1.0});
   drive.wander(300);
   const OdometryErrors before = drive.learned.errors();
   drive.truth = drive.truth * inverse(Pose2{0.8, 0.0, 0.0});
@@ -239,23 +241,23 @@ TEST(OdometryModels, BelieveNoErrorThatIsAbsurd) {
         {Vector(4, 4, 2) - models.errors().head<3>(), effect, models.errors(), motion, motion});
   EXPECT_EQ(models.errors()[0], 0.5);
   EXPECT_EQ(models.errors()[1], 0.5);
-  EXPECT_NEAR(models.errors()[2], 0.3, 1e-9);
+  EXPECT_LE(models.errors()[2], 0.3 + 1e-9);
 }
 
 // Errors and noise at once: neither is known before the other is.
 TEST(OdometryModels, FindErrorsAndTheFactorOfTheNoise) {
-  for (const double truth : {1.0, 0.25, 1.0 / 32}) {
+  for (const double truth : {3.0, 1.0, 0.25, 1.0 / 32}) {
     OdometryModels models;
     Random random(3);
     const Matrix motion = Vector(4e-4, 4e-4, 1e-4).asDiagonal();
     const Matrix rest = 1e-6 * Matrix::Identity();
-    const OdometryModels::Errors errors(-0.06, 0.04, 0.03, 0.07);
+    const OdometryModels::Errors errors{-0.06, 0.04, 0.03, 0.07, -0.02};
     for (int i = 0; i < 500; ++i) {
       OdometryModels::Effect effect = OdometryModels::Effect::Zero();
       const double turn = i % 3 - 1.0;
-      effect.row(0) << 1.0, 0.0, 0.0, std::cos(turn) - 1.0;
-      effect.row(1) << 0.0, 0.0, 0.0, std::sin(turn);
-      effect.row(2) << 0.0, turn, 1.0, 0.0;
+      effect.row(0) << 1.0, 0.0, 0.0, std::cos(turn) - 1.0, 0.0;
+      effect.row(1) << 0.0, 0.0, 0.0, std::sin(turn), -1.0;
+      effect.row(2) << 0.0, turn, 1.0, 0.0, 0.0;
       const Matrix all = truth * motion + rest;
       const Vector off(std::sqrt(all(0, 0)) * random.gaussian(),
                        std::sqrt(all(1, 1)) * random.gaussian(),
@@ -286,6 +288,7 @@ TEST(OdometryModels, KeepTheModelsNoiseAsLongAsNothingIsKnown) {
     models.followNoise({0.1 * Vector(random.gaussian(), random.gaussian(), random.gaussian()),
                         OdometryModels::Effect::Zero(), models.errors(), motion, rest});
   EXPECT_GT(models.noise(), 0.9);
+  EXPECT_LT(models.noise(), 1.1);
 }
 
 // One step that a wheel slips counts a little; a floor on which all do is learned again.
@@ -307,7 +310,7 @@ TEST(OdometryModels, LearnWorseOdometryAgain) {
 
 // Samples: the spread of the motion model, seven of eight narrower by the root of the factor, and
 // not otherwise.
-TEST(LessNoise, NarrowsSevenOfEightSamples) {
+TEST(ScaledNoise, NarrowsSevenOfEightSamples) {
   constexpr std::size_t kCount = 80'000;
   const OdometryMotion motion(OdometryNoise{0.2, 0.1, 0.1, 0.1});
   const auto spreadOf = [&](double noise, bool ofAllNoise) {
@@ -337,7 +340,7 @@ TEST(LessNoise, NarrowsSevenOfEightSamples) {
 }
 
 // A model that corrects odometry keeps its mean.
-TEST(LessNoise, NarrowsToTheModelsMean) {
+TEST(ScaledNoise, NarrowsToTheModelsMean) {
   SampleSet set;
   set.resize(800);
   OdometryCorrection correction;
@@ -351,7 +354,7 @@ TEST(LessNoise, NarrowsToTheModelsMean) {
 }
 
 // A turn over the angle at which headings wrap is no large error.
-TEST(LessNoise, HeadingsMayWrap) {
+TEST(ScaledNoise, HeadingsMayWrap) {
   SampleSet set;
   set.resize(1000);
   for (float& theta : set.theta) theta = 3.0F;

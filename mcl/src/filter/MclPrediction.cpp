@@ -5,12 +5,12 @@
 #include "BeliefTuning.hpp"
 #include "Drift.hpp"
 #include "FilterTuning.hpp"
-#include "LessNoise.hpp"
 #include "MclImpl.hpp"
 #include "MotionPieces.hpp"
 #include "MotionTuning.hpp"
 #include "ReadingsTuning.hpp"
 #include "Resampling.hpp"
+#include "ScaledNoise.hpp"
 
 namespace ortung {
 namespace {

@@ -23,9 +23,10 @@ Effect effectOn(const Pose2& change, const OdometryErrors& errors) {
   const double c = std::cos(change.theta);
   const double s = std::sin(change.theta);
   Effect effect = Effect::Zero();
-  effect.row(0) << change.x, -errors.ahead * s * change.theta, -errors.ahead * s * way, c - 1.0;
-  effect.row(1) << change.y, errors.ahead * c * change.theta, errors.ahead * c * way, s;
-  effect.row(2) << 0.0, change.theta, way, 0.0;
+  effect.row(0) << change.x, -errors.ahead * s * change.theta, -errors.ahead * s * way, c - 1.0,
+      change.y;
+  effect.row(1) << change.y, errors.ahead * c * change.theta, errors.ahead * c * way, s, -change.x;
+  effect.row(2) << 0.0, change.theta, way, 0.0, 0.0;
   return effect;
 }
 
@@ -63,15 +64,16 @@ OdometryModels::Seen LearnedOdometry::Way::to(const PoseEstimate& alone,
 
 OdometryErrors LearnedOdometry::errors() const {
   const OdometryModels::Errors& mean = models_.errors();
-  return {mean[0], mean[1], mean[2], mean[3], models_.noise()};
+  return {mean[0], mean[1], mean[2], mean[3], mean[4], models_.noise()};
 }
 
-/// The point that odometry follows turns and moves first; the robot's frame is ahead of it.
+/// The point that odometry follows moves; the robot's frame is fixed to it.
 Pose2 LearnedOdometry::corrected(const Pose2& change) const {
   const OdometryErrors its = errors();
+  const Pose2 frame{its.ahead, 0.0, its.turned};
   const double turn = change.theta * (1.0 + its.turn) + its.veer * std::hypot(change.x, change.y);
-  return {change.x * (1.0 + its.way) + its.ahead * (std::cos(turn) - 1.0),
-          change.y * (1.0 + its.way) + its.ahead * std::sin(turn), turn};
+  return inverse(frame) * Pose2{change.x * (1.0 + its.way), change.y * (1.0 + its.way), turn} *
+         frame;
 }
 
 MotionChange LearnedOdometry::expected(const MotionChange& model) const {

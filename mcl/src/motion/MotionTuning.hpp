@@ -36,6 +36,9 @@ ORTUNG_CONSTANT(odometry, kAhead, 0.1);
 ORTUNG_CONSTANT(odometry, kMetres, 0.01);
 /// [rad] Likewise of a heading. Chosen by hand.
 ORTUNG_CONSTANT(odometry, kRadians, 0.005);
+/// [rad] Prior sigma of how far the robot's frame is turned against where it drives: a scanner is
+/// easily mounted a degree off.
+ORTUNG_CONSTANT(odometry, kTurned, 0.02);
 /// [m + rad] Way after which poses by readings alone are compared. Chosen by hand: on less, delays
 /// between odometry and readings look like errors.
 ORTUNG_CONSTANT(odometry, kWay, 1.0);
@@ -56,13 +59,15 @@ ORTUNG_CONSTANT(odometry, kMostVeer, 0.3);
 /// [m] Greatest distance of the robot's frame from that point that is believed. Chosen by hand:
 /// half of a large robot.
 ORTUNG_CONSTANT(odometry, kMostAhead, 0.5);
+/// [rad] Greatest turn of the robot's frame that is believed. Chosen by hand.
+ORTUNG_CONSTANT(odometry, kMostTurned, 0.3);
 /// Of so many samples one is moved by all of the motion model's noise, however good odometry is.
 /// Chosen by hand: of the smallest set of samples dozens.
 ORTUNG_CONSTANT(odometry, kOfAllNoise, std::size_t{8});
-/// [nats] Evidence that it takes before less noise is believed than the motion model has. Chosen by
-/// hand.
+/// [nats] Evidence that it takes before less or more noise is believed than the motion model has.
+/// Chosen by hand.
 ORTUNG_CONSTANT(odometry, kCaution, 5.0);
-/// [nats] Most that one pose says against less noise, as it may be an outlier. Chosen by hand.
+/// [nats] Most that one pose says of the noise, as it may be an outlier. Chosen by hand.
 ORTUNG_CONSTANT(odometry, kMostNats, 8.0);
 /// [share] How much of the evidence is left after a pose, so that about a hundred count. Chosen by
 /// hand.

@@ -16,13 +16,21 @@ using Errors = OdometryModels::Errors;
 using ErrorMatrix = OdometryModels::ErrorMatrix;
 using Effect = OdometryModels::Effect;
 
-double factor(std::size_t k) { return std::ldexp(1.0, -static_cast<int>(k)); }
+constexpr std::size_t kOfModel = 2;  // the factor 1
+
+double factor(std::size_t k) {
+  return std::ldexp(1.0, static_cast<int>(kOfModel) - static_cast<int>(k));
+}
+
+double square(double v) { return v * v; }
 
 /// Returns the log of what is believed before anything is known.
-double prior(std::size_t k) { return k == 0 ? 0.0 : -kCaution; }
+double prior(std::size_t k) { return k == kOfModel ? 0.0 : -kCaution; }
 
 /// Returns the variances of what is not known of a robot.
-Errors variances() { return {kScale * kScale, kScale * kScale, kVeer * kVeer, kAhead * kAhead}; }
+Errors variances() {
+  return {kScale * kScale, kScale * kScale, kVeer * kVeer, kAhead * kAhead, kTurned * kTurned};
+}
 
 }  // namespace
 
@@ -55,25 +63,22 @@ void OdometryModels::followNoise(const Seen& step) {
   for (std::size_t k = 0; k < kCount; ++k) logs[k] = likely(models_[k], factor(k), step).log();
   if (!std::ranges::all_of(logs, [](double log) { return std::isfinite(log); })) return;
   for (std::size_t k = 0; k < kCount; ++k)
-    models_[k].log =
-        kKept * models_[k].log + (1.0 - kKept) * prior(k) + std::max(logs[k] - logs[0], -kMostNats);
+    models_[k].log = kKept * models_[k].log + (1.0 - kKept) * prior(k) +
+                     std::clamp(logs[k] - logs[kOfModel], -kMostNats, kMostNats);
   mix();
 }
 
 void OdometryModels::followErrors(const Seen& way) {
   std::array<Model, kCount> after = models_;
-  double times = 1.0;
+  // What the model's noise does not explain counts the less the farther off it is.
+  const double far = likely(models_[kOfModel], 1.0, way).squares / square(tuning::common::kOutlier);
+  const double times = std::max(1.0, square(far));
   for (std::size_t k = 0; k < kCount; ++k) {
     Model& model = after[k];
     const Likely its = likely(model, factor(k), way);
     if (!std::isfinite(its.log())) return;
-    // What the most noise does not explain counts the less the farther off it is.
-    if (k == 0) {
-      const double far = its.squares / (tuning::common::kOutlier * tuning::common::kOutlier);
-      times = std::max(1.0, far * far);
-    }
-    const Eigen::Matrix<double, 4, 3> gain = its.all.solve(its.mixed).transpose() / times;
-    const Errors most(kMostScale, kMostScale, kMostVeer, kMostAhead);
+    const Eigen::Matrix<double, 5, 3> gain = its.all.solve(its.mixed).transpose() / times;
+    const Errors most{kMostScale, kMostScale, kMostVeer, kMostAhead, kMostTurned};
     model.errors = (model.errors + gain * its.innovation).cwiseMin(most).cwiseMax(-most);
     const ErrorMatrix covariance = model.covariance - gain * its.mixed;
     model.covariance = 0.5 * (covariance + covariance.transpose());
@@ -85,7 +90,8 @@ void OdometryModels::followErrors(const Seen& way) {
 
 void OdometryModels::drift(double way, double turn) {
   const double scale = kScaleDrift * kScaleDrift;
-  const Errors drifted(way * scale, std::abs(turn) * scale, way * kVeerDrift * kVeerDrift, 0.0);
+  const Errors drifted{way * scale, std::abs(turn) * scale, way * kVeerDrift * kVeerDrift, 0.0,
+                       0.0};
   const auto widen = [&](ErrorMatrix& covariance) {
     const Errors known = covariance.diagonal();
     covariance.diagonal() = (known + drifted).cwiseMin(known.cwiseMax(variances()));

@@ -1,4 +1,4 @@
-#include "LessNoise.hpp"
+#include "ScaledNoise.hpp"
 
 #include <cmath>
 #include <vector>
@@ -34,17 +34,17 @@ Moved movedBy(const Pose2& change, const MovableSamples& samples) {
 void sampleMotion(const MotionModel& motion, const MovableSamples& samples, const Pose2& change,
                   const Pose2& mean, double noise, std::uint64_t seed, std::uint64_t stream,
                   std::uint64_t first) {
-  if (!(noise < 1.0)) return motion.sampleMotion(samples, change, seed, stream, first);
+  if (noise == 1.0) return motion.sampleMotion(samples, change, seed, stream, first);
   const Moved without = movedBy(mean, samples);
   motion.sampleMotion(samples, change, seed, stream, first);
-  const auto less = static_cast<float>(std::sqrt(noise));
+  const auto scale = static_cast<float>(std::sqrt(noise));
   for (std::size_t i = 0; i < samples.x.size(); ++i) {
-    if ((first + i) % tuning::odometry::kOfAllNoise == 0) continue;
+    if (noise < 1.0 && (first + i) % tuning::odometry::kOfAllNoise == 0) continue;
     const float turn = static_cast<float>(
         wrapAngle(static_cast<double>(samples.theta[i]) - static_cast<double>(without.theta[i])));
-    samples.x[i] = without.x[i] + less * (samples.x[i] - without.x[i]);
-    samples.y[i] = without.y[i] + less * (samples.y[i] - without.y[i]);
-    samples.theta[i] = without.theta[i] + less * turn;
+    samples.x[i] = without.x[i] + scale * (samples.x[i] - without.x[i]);
+    samples.y[i] = without.y[i] + scale * (samples.y[i] - without.y[i]);
+    samples.theta[i] = without.theta[i] + scale * turn;
   }
 }
 
