@@ -33,9 +33,9 @@ ORTUNG_CONSTANT(odometry, kVeer, 0.03);
 ORTUNG_CONSTANT(odometry, kAhead, 0.1);
 /// [m] Sigma of what maps, tables and correlated readings leave open of a position by readings
 /// alone. Chosen by hand.
-ORTUNG_CONSTANT(odometry, kMetres, 0.01);
+ORTUNG_CONSTANT(odometry, kMetres, 0.03);
 /// [rad] Likewise of a heading. Chosen by hand.
-ORTUNG_CONSTANT(odometry, kRadians, 0.005);
+ORTUNG_CONSTANT(odometry, kRadians, 0.01);
 /// [rad] Prior sigma of how far the robot's frame is turned against where it drives: a scanner is
 /// easily mounted a degree off.
 ORTUNG_CONSTANT(odometry, kTurned, 0.02);
