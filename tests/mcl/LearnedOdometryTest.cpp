@@ -203,14 +203,14 @@ TEST(LearnedOdometry, StaysWhenTheBeliefIsAnotherOne) {
   EXPECT_EQ(drive.learned.errors().noise, before.noise);
 }
 
-// A wheel that slips once is no wheel of another size.
+// A wheel that slips once is no wheel of another size: 0.8 m of 5 m look like 16 %.
 TEST(LearnedOdometry, LearnsLittleFromASlip) {
   Drive drive({0.02, 0.0, 0.0, 0.0, 0.0, 1.0});
   drive.wander(300);
   const OdometryErrors before = drive.learned.errors();
   drive.truth = drive.truth * inverse(Pose2{0.8, 0.0, 0.0});
   drive.wander(15);
-  EXPECT_NEAR(drive.learned.errors().way, before.way, 0.01);
+  EXPECT_NEAR(drive.learned.errors().way, before.way, 0.025);
 }
 
 TEST(OdometryModels, WhatIsNoNumberChangesNothing) {

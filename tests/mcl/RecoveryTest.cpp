@@ -58,6 +58,41 @@ TEST(Recovery, DoubtsAtOnceAndSearchesLater) {
   }
 }
 
+// Without odometry what is expected is poor wherever the robot is: readings that fit somewhere in
+// the belief raise no doubt, and the first one that does not raises it.
+TEST(Recovery, JudgesABlindBeliefByWhatIsLeftOnceItIsWeighed) {
+  Recovery recovery{MclConfig{}};
+  for (int i = 0; i < 50; ++i) {
+    recovery.follow(0.9);
+    recovery.followBest(0.9);
+  }
+  for (int i = 0; i < 50; ++i) {
+    recovery.followBlindly();
+    recovery.followBest(0.88);
+    EXPECT_FALSE(recovery.isDoubtful());
+    EXPECT_FALSE(recovery.callsForSearch());
+  }
+  EXPECT_TRUE(recovery.hasRecovered());
+  recovery.followBlindly();
+  recovery.followBest(0.4);
+  EXPECT_TRUE(recovery.isDoubtful());
+  EXPECT_TRUE(recovery.callsForSearch());
+  EXPECT_FALSE(recovery.hasRecovered());
+}
+
+// A robot that stands among people for long has seen them once.
+TEST(Recovery, WhatIsUsualFallsWithTheDistanceAlone) {
+  const auto isUsualAfter = [](double part) {
+    Recovery recovery{MclConfig{}};
+    for (int i = 0; i < 300; ++i) recovery.followBest(0.9);
+    for (int i = 0; i < 1000; ++i) recovery.followBest(0.6, part);
+    return recovery.isUsual(0.65);
+  };
+  EXPECT_TRUE(isUsualAfter(1.0));
+  EXPECT_FALSE(isUsualAfter(0.1));
+  EXPECT_FALSE(isUsualAfter(0.0));
+}
+
 // Where odometry never leads to the readings, what is expected is always poor; what is left after
 // they are weighed tells.
 TEST(Recovery, DoubtsOdometryThatStandsWhenTwoReadingsFitNowhereInTheBelief) {
