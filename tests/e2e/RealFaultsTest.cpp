@@ -98,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
                               "0.1",
                               {{"readings=crowd@600-630", 2, 0.027, 0.025},
                                {"readings=late:1.5@300-1200", 1, 0.01, 0.01},
-                               {"odometry=reverse@600-604", 2, 0.013, 0.016}}}),
+                               {"odometry=reverse@600-604", 2, 0.013, 0.016},
+                               {"odometry=zero", 1, 0.004, 0.004}}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
