@@ -41,6 +41,16 @@ Matrix open() {
   return Eigen::Vector3d(kMetres * kMetres, kMetres * kMetres, kRadians * kRadians).asDiagonal();
 }
 
+/// Returns whether what readings leave open at the ends of a way hides not even the least noise of
+/// odometry on it.
+bool isClear(const OdometryModels::Seen& way) {
+  const auto position = [](const Matrix& covariance) {
+    return covariance(0, 0) + covariance(1, 1);
+  };
+  return kClear * position(way.rest) <= position(way.motion) &&
+         kClear * way.rest(2, 2) <= way.motion(2, 2);
+}
+
 }  // namespace
 
 LearnedOdometry::Way::Way(const PoseEstimate& from) : pose(from), motion(from) {
@@ -118,8 +128,7 @@ void LearnedOdometry::compare(const PoseEstimate& alone) {
     settled_.followNoise(step);
     models_.followNoise(step);
   }
-  if (way_ && way_->come >= way_->compared + kWay) learnErrors(alone);
-  if (!way_ || (way_->compared == way_->come && isLong(alone))) {
+  if (!way_ || (way_->come >= way_->compared + kWay && learnErrors(alone))) {
     settled_ = models_;
     way_.emplace(alone);
   }
@@ -127,7 +136,8 @@ void LearnedOdometry::compare(const PoseEstimate& alone) {
 }
 
 /// What the whole way says takes the place of what a part of it has said before.
-void LearnedOdometry::learnErrors(const PoseEstimate& alone) {
+/// @returns whether it was long enough, so that another one may begin
+bool LearnedOdometry::learnErrors(const PoseEstimate& alone) {
   const ErrorMatrix before = models_.covariance();
   const OdometryModels::Errors used = models_.errors();
   OdometryModels::Seen way = way_->to(alone, used);
@@ -143,17 +153,7 @@ void LearnedOdometry::learnErrors(const PoseEstimate& alone) {
   // The refined pose depends on the errors as before, which are less uncertain now.
   const Effect cross = cross_ * before.inverse() * models_.covariance();
   if (cross.allFinite()) cross_ = cross;
-}
-
-/// A way is long enough once what readings leave open at its ends does not hide the least noise of
-/// odometry on it.
-bool LearnedOdometry::isLong(const PoseEstimate& alone) const {
-  const auto isHidden = [&](const auto& variance, double floor) {
-    return kClear * (variance(way_->pose.covariance) + variance(alone.covariance) + floor) >
-           variance(way_->motion.covariance);
-  };
-  return way_->come >= kLongest || !(isHidden(positionVariance, 2.0 * kMetres * kMetres) ||
-                                     isHidden(headingVariance, kRadians * kRadians));
+  return way_->come >= kLongest || isClear(way);
 }
 
 }  // namespace ortung

@@ -67,8 +67,7 @@ class ORTUNG_API LearnedOdometry {
   };
 
   MotionChange known(const MotionChange& model) const;
-  void learnErrors(const PoseEstimate& alone);
-  bool isLong(const PoseEstimate& alone) const;
+  bool learnErrors(const PoseEstimate& alone);
 
   OdometryModels settled_;  ///< what was known before the way
   OdometryModels models_;   ///< what is known by the way so far, too

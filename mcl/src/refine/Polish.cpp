@@ -209,7 +209,7 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
         surprise(difference(solution->pose, place_->pose), matrixOf(place_->covariance), *solution);
     if (observed) learnTimes(*observed);
   }
-  // Where estimates err by more than they promise, readings say less of odometry, too.
+  // Where estimates err by more than they promise, readings say less of the pose.
   if (follows && learnsOdometry_) {
     odometry_.follow(matrixOf(solution->slope.information), matrixOf(place_->covariance), times_);
   } else
