@@ -174,7 +174,7 @@ TEST_F(RawlogReaderLines, ItsWorldIsTheMapOfTheOptions) {
   makeSource(printing(lines, "?map=m.gridmap"))->writeWorld(world);
   EXPECT_EQ(readBytes(world),
             "[world]\nname = \"w\"\n\n[[grid]]\nmap = \"w.gridmap\"\n"
-            "surface_depth_cells = 0.5\n");
+            "surface_depth_cells = 0.5\nmap_error_m = 0.02\n");
   makeSource(printing(lines, "?map=m.gridmap&beacons=b.txt"))->writeWorld(world);
   EXPECT_TRUE(readBytes(world).ends_with(
       "\n[[landmark]]\nkind = \"beacon\"\nidentity = 4\nposition_m = [1.0, 2.0]\n"));

@@ -111,6 +111,7 @@ TEST(FileLimits, OfGridsInWorlds) {
       {
           {"unknown_margin_m", gridWorld("map.yaml", "unknown_margin_m = @\n"), 0.0, 100.0},
           {"surface_depth_cells", gridWorld("map.yaml", "surface_depth_cells = @\n"), 0.0, 1.0},
+          {"map_error_m", gridWorld("map.yaml", "map_error_m = @\n"), 0.0, 1.0},
           {"z_m", gridWorld("map.yaml", "z_m = [@, 1]\n"), -100.0, 0.999},
           {"z_m", gridWorld("map.yaml", "z_m = [0, @]\n"), 0.001, 1000.0},
       },

@@ -79,6 +79,13 @@ TEST(Fingerprint, OfAGridIsThatOfItsCellsAndPlace) {
   EXPECT_NE(atDepth("0.5"), print);
   EXPECT_NE(atDepth("0.5"), atDepth("0.25"));
   EXPECT_EQ(atDepth("0"), print);
+  const auto withError = [&](const std::string& metres) {
+    return fingerprintOfGrid(map, mapYaml(), "map_error_m = " + metres + "\n");
+  };
+  EXPECT_NE(withError("0.5"), print);
+  EXPECT_NE(withError("0.5"), atDepth("0.5"));
+  EXPECT_NE(withError("0.5"), withError("0.25"));
+  EXPECT_EQ(withError("0"), print);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
+#include "ortung/realsensors/MapFiles.hpp"
 #include "ortung/realsensors/Scanner.hpp"
 #include "ortung/ros2/RobotTopics.hpp"
 
@@ -286,8 +287,8 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
                       "\norigin: [" + tomlNumber(map_->origin.position.x) + ", " +
                       tomlNumber(map_->origin.position.y) +
                       ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n[[grid]]\nmap = " +
-                      tomlText(yaml.filename().string()) + "\nsurface_depth_cells = 0.5\n");
+  writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n" +
+                      gridToml(yaml.filename().string()));
 }
 
 /// The text of `ortung import mcap --help`.

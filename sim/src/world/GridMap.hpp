@@ -44,6 +44,8 @@ struct GridMap {
 /// A grid as a body of the world, extruded in z.
 struct GridBody {
   double surfaceDepth = 0.0;  ///< rays end this far behind the outline of occupied cells [m]
+  /// Standard deviation of how far surfaces are from where the map has them, beyond rounding [m].
+  double mapError = 0.0;
   GridMap map;
   double zLow = 0.0;   ///< height of its bottom [m]
   double zHigh = 1.0;  ///< height of its top [m]

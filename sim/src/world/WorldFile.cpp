@@ -91,6 +91,7 @@ GridBody readGrid(const Parameters& table, const std::filesystem::path& folder) 
   body.zHigh = heights.zHigh;
   const double margin = table.numberOr("unknown_margin_m", 0.5, {0.0, 100.0});
   const double depthInCells = table.numberOr("surface_depth_cells", 0.0, {0.0, 1.0});
+  body.mapError = table.numberOr("map_error_m", 0.0, {0.0, 1.0});
   checkPrintable(table, "name", table.textOr("name", ""));
   const std::string map = table.text("map");
   if (map.empty() || map.find('\0') != std::string::npos) table.fail("map", "names no file");

@@ -45,7 +45,7 @@ struct FieldRegion {
   std::vector<std::uint8_t> open;       ///< whether the cell's centre is not inside anything solid
   std::vector<std::uint8_t> standable;  ///< whether the robot's body fits with its centre here
   /// Standard deviation of the world's surfaces [m]: in maps that are made of cells, the error of
-  /// rounding to these.
+  /// rounding to these, and of who made the map.
   double surfaceSigma = 0.0;
 
   /// @throws std::invalid_argument when sizes do not fit or nothing is standable

@@ -8,6 +8,11 @@
 
 namespace ortung {
 
+/// Returns the [[grid]] table of a world for a map that a robot made: a surface was seen somewhere in
+/// a cell, so its middle is the best guess, and poses from which it was seen were off, too.
+/// @param map file, relative to the world's
+ORTUNG_API std::string gridToml(const std::string& map);
+
 /// Writes a world that is one occupancy grid: @p world (TOML), and a copy of the map with the same
 /// stem beside it. For a map_server YAML the YAML and the image that it names are copied
 /// (decompressed); for any other kind (CARMEN's .map, MRPT's .gridmap, both may be .gz) the file.
