@@ -96,7 +96,7 @@ struct LastingParts {
   /// odometry moves the belief.
   void forgetPlace() {
     polish.forget();
-    biases.forget();
+    biases.forgetPlace();
     separation.forget();
   }
   /// Each part forgets what it knows of the belief. If a part is added, this does not compile until

@@ -22,10 +22,17 @@ using tuning::common::kIndependent, tuning::common::kOutlier;
 }  // namespace
 
 void Biases::forget() {
+  for (Device& device : devices_) device = {std::move(device.name)};
+  forgetPlace();
+}
+
+void Biases::forgetPlace() {
   isRunning_ = false;
   travelled_ = 0.0;
+  waits_ = 0;
   for (auto& [data, feature] : features_) feature.learnedAt = -1.0;
-  for (Device& device : devices_) device = {std::move(device.name)};
+  for (Device& device : devices_)
+    if (!device.knowsDistances && !device.knowsBearings) device = {std::move(device.name)};
 }
 
 void Biases::move(const MotionChange& change) {
@@ -84,17 +91,28 @@ void Biases::follow(const std::vector<NewReading>& news, const PoseEstimate& est
     reading->residualsAt(at, residuals);
     if (residuals.empty()) continue;
     if (!isRunning_) {
-      if (estimate.status != TrackStatus::kTracking) return;
+      if (estimate.status != TrackStatus::kTracking) {
+        waits_ += static_cast<int>(residuals.size());
+        // With what is known of the devices readings fit nowhere.
+        if (waits_ > kTrusted) forget();
+        return;
+      }
       begin(estimate, residuals);
     }
     feature.learnedAt = travelled_;
     open(feature.device, residuals);
-    for (const ReadingResidual& residual : residuals)
-      misfit_ += kRate * ((learn(feature.device, residual, at) ? 0.0 : 1.0) - misfit_);
+    for (const ReadingResidual& residual : residuals) {
+      const bool fits = learn(feature.device, residual, at);
+      fits_ += fits ? 1 : 0;
+      misfit_ += kRate * ((fits ? 0.0 : 1.0) - misfit_);
+    }
   }
   if (!isRunning_) return;
   if (misfit_ > kMisfits) {
-    forget();
+    if (fits_ < kTrusted)
+      forget();
+    else
+      forgetPlace();
     return;
   }
   decide();
@@ -105,8 +123,16 @@ void Biases::follow(const std::vector<NewReading>& news, const PoseEstimate& est
 void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidual>& residuals) {
   isRunning_ = true;
   misfit_ = 0.0;
+  fits_ = 0;
   pose_ = estimate.pose;
-  mean_ = Eigen::VectorXd::Zero(kPose);
+  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(mean_.size(), mean_.size());
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(mean_.size());
+  for (std::size_t d = 0; placeOf(d) < mean_.size(); ++d) {
+    if (!devices_[d].knowsDistances && !devices_[d].knowsBearings) continue;
+    const Eigen::Index at = placeOf(d);
+    means.segment<kTerms>(at) = mean_.segment<kTerms>(at);
+    kept.block<kTerms, kTerms>(at, at) = covariance_.block<kTerms, kTerms>(at, at);
+  }
   double metres = 0.1;
   double radians = 0.05;
   for (const ReadingResidual& r : residuals) {
@@ -115,8 +141,15 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
     else
       metres = std::max(metres, r.sigma + kScale * r.expected);
   }
-  covariance_ = matrixOf(estimate.covariance);
-  covariance_.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
+  Eigen::Matrix3d pose = matrixOf(estimate.covariance);
+  pose.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
+  if (means.size() < kPose) {
+    means = Eigen::VectorXd::Zero(kPose);
+    kept = Eigen::MatrixXd::Zero(kPose, kPose);
+  }
+  kept.topLeftCorner<3, 3>() = pose;
+  mean_ = std::move(means);
+  covariance_ = std::move(kept);
 }
 
 void Biases::open(std::size_t device, const std::vector<ReadingResidual>& residuals) {
@@ -199,7 +232,6 @@ void Biases::decide() {
 
 DeviceBias Biases::biasOf(std::size_t device) const {
   DeviceBias bias;
-  if (!isRunning_) return bias;
   const Eigen::Index at = placeOf(device);
   if (devices_[device].knowsDistances) {
     bias.metres = mean_[at];

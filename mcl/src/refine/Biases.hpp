@@ -21,11 +21,14 @@ namespace ortung {
 /// pose is part of its state, what cannot be observed stays uncertain: one beacon from one place
 /// says nothing about a bias. A known bias is subtracted from the readings before they weigh
 /// samples. A bias that is less than four standard errors from zero, or was learned from few
-/// values, is not applied. Not thread-safe.
+/// values, is not applied. A known bias belongs to the device: it outlives the place, unless
+/// readings fit no place with it. Not thread-safe.
 class ORTUNG_API Biases {
  public:
-  /// Forgets all biases, as the belief is another one, or may be.
+  /// Forgets all biases, as devices may be other ones.
   void forget();
+  /// Forgets the pose alone, as the belief is at another place, and biases that are not known.
+  void forgetPlace();
   void move(const MotionChange& change);  ///< moves the pose by odometry
   /// Corrects new readings by the known biases. It reads features, so the caller holds the
   /// container's lock, or no other thread uses the container.
@@ -67,6 +70,8 @@ class ORTUNG_API Biases {
   double travelled_ = 0.0;  ///< distance travelled since begin() [m]; a turn of 1 rad counts as 1 m
   std::vector<Device> devices_;
   bool isRunning_ = false;
+  int fits_ = 0;   ///< values that fitted since begin()
+  int waits_ = 0;  ///< values since the place was forgotten, or begin()
   Pose2 pose_;
   Eigen::VectorXd mean_;  ///< mean of all biases; its first three are the pose's error, always zero
   Eigen::MatrixXd covariance_;

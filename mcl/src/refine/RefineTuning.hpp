@@ -19,6 +19,9 @@ ORTUNG_CONSTANT(biases, kStillErrors, 1.5);
 /// Least number of values from which a bias becomes known. The usual rule for means of unknown
 /// distributions.
 ORTUNG_CONSTANT(biases, kFewest, 30);
+/// Number of values by which a bias is trusted: after that many have fitted, it outlives the place
+/// at which it was learned, and so many values without a place to track make it forgotten.
+ORTUNG_CONSTANT(biases, kTrusted, 300);
 /// [share] Share of outliers above which the pose must be wrong, rather than the readings.
 ORTUNG_CONSTANT(biases, kMisfits, 0.5);
 /// [share] Rate at which the share of outliers is averaged: over fifty readings. Chosen by hand.
