@@ -116,7 +116,7 @@ std::string textOf(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(BeaconLog, AScaleThatIsOffByThreePercentIsLearnedOnTheWay) {
+TEST(BeaconLog, AScaleThatIsOffBySevenPercentIsLearnedOnTheWay) {
   const std::string path = kData + "/plaza";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const Folder folder;
@@ -124,19 +124,18 @@ TEST(BeaconLog, AScaleThatIsOffByThreePercentIsLearnedOnTheWay) {
   std::string robot = textOf(folder.path("robot.toml"));
   const std::string scale = "range_scale = 1.07";
   ASSERT_NE(robot.find(scale), std::string::npos);
-  robot.replace(robot.find(scale), scale.size(), "range_scale = 1.04");
+  robot.replace(robot.find(scale), scale.size(), "range_scale = 1.00");
   std::ofstream(folder.path("robot.toml")) << robot;
   learn(folder, "0.5");
   const std::string part = "?from_s=970";
-  // Until it is learned, chance decides for how long the robot is lost: the middle one of three.
-  std::vector<double> medians;
+  // Until it is learned, chance decides for how long the robot is lost. Then it stays known, also
+  // while the mower's wheels are stuck, six minutes later.
   for (const char* seed : {"2", "3", "4"}) {
     const auto learned = localized(folder, "robot.toml", part, {"--seed", seed});
     ASSERT_FALSE(learned["converged_after_s"].is_null());
-    medians.push_back(learned["position_median_m"].get<double>());
+    EXPECT_LT(learned["position_median_m"].get<double>(), 0.28) << seed;
+    EXPECT_LT(learned["lost_share"].get<double>(), 0.05) << seed;
   }
-  std::sort(medians.begin(), medians.end());
-  EXPECT_LT(medians[1], 0.4);
   robot.insert(robot.find("[mcl]") + 5, "\nlearns_biases = false");
   std::ofstream(folder.path("stubborn.toml")) << robot;
   const auto stubborn = localized(folder, "stubborn.toml", part, {"--seed", "2"});

@@ -89,13 +89,15 @@ class Drive {
     PoseEstimate e;
     e.pose = pose_;
     e.covariance = {0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.001};
-    e.status = TrackStatus::kTracking;
+    e.status = status;
     return e;
   }
 
   Biases biases;
   NewReading last;  ///< as it would be weighed
   bool stands = false;
+  TrackStatus status = TrackStatus::kTracking;
+  void setBias(const DeviceBias& bias) { bias_ = bias; }
 
  private:
   DeviceBias bias_;
@@ -166,6 +168,74 @@ TEST(Biases, AreForgottenWithTheBelief) {
   EXPECT_TRUE(drive.biases.known().empty());
   for (int i = 0; i < 200; ++i) drive.step();
   EXPECT_FALSE(drive.biases.known().empty());
+}
+
+void expectKnown(const Drive& drive, double metres) {
+  const auto known = drive.biases.known();
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_NEAR(known.begin()->second.metres + 7 * known.begin()->second.perMetre, metres, 0.02);
+}
+
+TEST(Biases, ThatAreKnownOutliveThePlace) {
+  Drive drive({0.3, 0.0, 0.0}, 3);
+  for (int i = 0; i < 200; ++i) drive.step();
+  drive.biases.forgetPlace();
+  expectKnown(drive, 0.3);
+  // They go on to be learned from the new place, and are taken off all the while.
+  for (int i = 0; i < 200; ++i) {
+    drive.step();
+    ASSERT_NE(drive.last.asRead, nullptr);
+  }
+  expectKnown(drive, 0.3);
+}
+
+TEST(Biases, ThatAreNotKnownYetAreForgottenWithThePlace) {
+  Drive drive({0.3, 0.0, 0.0}, 3);
+  int until = 0;
+  for (; drive.biases.known().empty(); ++until) drive.step();
+  Drive again({0.3, 0.0, 0.0}, 3);
+  for (int i = 1; i < until; ++i) again.step();
+  again.biases.forgetPlace();
+  again.step();
+  EXPECT_TRUE(again.biases.known().empty());
+}
+
+/// Drives, with another bias than the one that is known, until that changes.
+int stepsUntilForgotten(Drive& drive, const DeviceBias& other) {
+  drive.setBias(other);
+  int steps = 0;
+  while (!drive.biases.known().empty() && steps < 1000) {
+    drive.step();
+    ++steps;
+  }
+  return steps;
+}
+
+TEST(Biases, OfWhichHalfFitNoLongerAreForgottenIfFewValuesEverFitted) {
+  // Each step has eight values, so 20 steps are fewer than 300.
+  Drive few({0.6, 0.0, 0.0}, 5);
+  for (int i = 0; i < 20; ++i) few.step();
+  ASSERT_FALSE(few.biases.known().empty());
+  EXPECT_LE(stepsUntilForgotten(few, {-9.0, 0.0, 2.0}), 6);
+  Drive many({0.6, 0.0, 0.0}, 5);
+  for (int i = 0; i < 200; ++i) many.step();
+  // It outlives its place once, but is not taken up again.
+  many.setBias({-9.0, 0.0, 2.0});
+  for (int i = 0; i < 7; ++i) many.step();
+  EXPECT_FALSE(many.biases.known().empty());
+  EXPECT_LT(stepsUntilForgotten(many, {-9.0, 0.0, 2.0}), 60);
+}
+
+TEST(Biases, WithWhichNoPlaceIsTrackedAreForgotten) {
+  Drive drive({0.3, 0.0, 0.0}, 3);
+  for (int i = 0; i < 200; ++i) drive.step();
+  drive.biases.forgetPlace();
+  drive.status = TrackStatus::kLost;
+  // Eight values a step: 300 are reached at the 38th.
+  for (int i = 0; i < 37; ++i) drive.step();
+  expectKnown(drive, 0.3);
+  drive.step();
+  EXPECT_TRUE(drive.biases.known().empty());
 }
 
 TEST(Biases, AreNotLearnedWhereTheRobotIsNotTracked) {
