@@ -9,6 +9,7 @@ import sys
 
 EPISODES = 2000
 BOOTSTRAPS = 1000
+MEASURED = "Measured at commit "
 STRIKERS = ("yardstick-v1", "shot", "dribble")
 
 
@@ -33,8 +34,17 @@ def tables_of(text):
     return found
 
 
-def put(page, tables):
-    """The page with the tables behind their marks, in place of those that are there; and marks that it lacks."""
+def commit():
+    """Words that say which sources a table is of."""
+    def git(*words):
+        return subprocess.run(["git", "-C", os.path.dirname(__file__), *words], capture_output=True, text=True).stdout.strip()
+    name = git("log", "-1", "--format=%h of %cs")
+    return "%s`%s" % (MEASURED, name.replace(" ", "` ", 1)) + (", with changes" if git("diff", "HEAD", "--", "*.cpp", "*.hpp") else "") + "."
+
+
+def put(page, tables, of=None):
+    """The page with the tables behind their marks, in place of those that are there; and marks that it lacks.
+    @param of a line above each table that says which sources it is of"""
     lines = page.split("\n")
     missing = []
     for heading, rows in tables.items():
@@ -43,12 +53,13 @@ def put(page, tables):
             missing.append(mark)
             continue
         begin = lines.index(mark) + 1
-        while begin < len(lines) and not lines[begin].strip():
+        while begin < len(lines) and (not lines[begin].strip() or lines[begin].startswith(MEASURED)):
             begin += 1
         end = begin
         while end < len(lines) and lines[end].startswith("|"):
             end += 1
-        lines[lines.index(mark) + 1:end] = ["", *rows] if end > begin else ["", *rows, ""]
+        head = ["", of, "", *rows] if of else ["", *rows]
+        lines[lines.index(mark) + 1:end] = head if end > begin else [*head, ""]
     return "\n".join(lines), missing
 
 
@@ -73,7 +84,7 @@ def written(file):
     missing = []
 
     def with_tables(page):
-        text, lacking = put(page, tables_of(tee.getvalue()))
+        text, lacking = put(page, tables_of(tee.getvalue()), commit())
         missing.extend(lacking)
         return text
 

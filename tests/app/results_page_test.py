@@ -52,6 +52,16 @@ class ResultsPage(unittest.TestCase):
         again, _ = results_page.put(page, results_page.tables_of(PRINTED))
         self.assertEqual(again, page)
 
+    def test_tables_say_which_sources_they_are_of(self):
+        of = results_page.commit()
+        self.assertRegex(of, r"^Measured at commit `[0-9a-f]{7,}` of \d{4}-\d\d-\d\d(, with changes)?\.$")
+        tables = results_page.tables_of(PRINTED)
+        first, _ = results_page.put(PAGE, tables, "Measured at commit `0` of then.")
+        page, _ = results_page.put(first, tables, of)
+        self.assertIn("<!-- table: Laser -->\n\n%s\n\n| log | error |\n" % of, page)
+        self.assertIn("<!-- table: Faults: share of time lost -->\n\n%s\n\n| fault | lost |\n" % of, page)
+        self.assertEqual(page.count("Measured at"), 2)
+
     def test_a_table_without_a_mark_is_named_and_changes_nothing(self):
         page, missing = results_page.put(PAGE, {"Sonar": ["| a |"]})
         self.assertEqual(page, PAGE)
