@@ -54,6 +54,8 @@ class ResultsPage(unittest.TestCase):
 
     def test_tables_say_which_sources_they_are_of(self):
         of = results_page.commit()
+        if of == results_page.MEASURED + ".":
+            self.skipTest("these sources are in no repository of git")
         self.assertRegex(of, r"^Measured at commit `[0-9a-f]{7,}` of \d{4}-\d\d-\d\d(, with changes)?\.$")
         tables = results_page.tables_of(PRINTED)
         first, _ = results_page.put(PAGE, tables, "Measured at commit `0` of then.")
