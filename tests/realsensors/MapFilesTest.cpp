@@ -29,9 +29,10 @@ TEST_F(MapFiles, MapsOfOtherKindsKeepTheirEndingsAndBytes) {
     folder_.write(name, content);
     writeGridWorld(path("out/w.toml"), path(name), "\n[[landmark]]\nkind = \"x\"\n");
     EXPECT_EQ(bytes(std::string("out/") + copy), content) << name;
-    EXPECT_EQ(bytes("out/w.toml"),
-              "[world]\nname = \"w\"\n\n[[grid]]\nmap = \"" + std::string(copy) +
-                  "\"\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n\n[[landmark]]\nkind = \"x\"\n");
+    EXPECT_EQ(
+        bytes("out/w.toml"),
+        "[world]\nname = \"w\"\n\n[[grid]]\nmap = \"" + std::string(copy) +
+            "\"\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n\n[[landmark]]\nkind = \"x\"\n");
   }
   EXPECT_NE(errorOfWorld("gone.map").find((path("gone.map")).string() + ": "), std::string::npos);
 }

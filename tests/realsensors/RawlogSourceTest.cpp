@@ -155,7 +155,8 @@ TEST(RawlogData, GivesRangesOfBeaconsAndTheirRobotFile) {
   const TemporaryFolder folder;
   source->writeWorld(folder.path() / "uwb.toml");
   const std::string head =
-      "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n"
+      "[world]\nname = \"uwb\"\n\n[[grid]]\nmap = \"uwb.gridmap.gz\"\nsurface_depth_cells = "
+      "0.5\nmap_error_m = 0.02\n"
       "\n[[landmark]]\nkind = \"beacon\"\nidentity = 1\nposition_m = [-1.79, -4.55, 1.94]\n";
   EXPECT_EQ(readBytes(folder.path() / "uwb.toml").substr(0, head.size()), head);
   EXPECT_EQ(readBytes(folder.path() / "uwb.gridmap.gz"),

@@ -208,9 +208,9 @@ TEST_F(ScanlogSource, WritesAWorldWithACopyOfItsMap) {
   folder_.write("out/keep", "");
   const auto source = makeSource("scanlog:" + path() + "/log");  // the map lies one folder above
   source->writeWorld(folder_.path() / "out/hall.toml");
-  EXPECT_EQ(
-      readBytes(folder_.path() / "out/hall.toml"),
-      "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n");
+  EXPECT_EQ(readBytes(folder_.path() / "out/hall.toml"),
+            "[world]\nname = \"hall\"\n\n[[grid]]\nmap = \"hall.yaml\"\nsurface_depth_cells = "
+            "0.5\nmap_error_m = 0.02\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.yaml"),
             "image: hall.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n");
   EXPECT_EQ(readBytes(folder_.path() / "out/hall.pgm"), "P5\n2 1\n255\nab");

@@ -84,8 +84,8 @@ class ModelledWorld final : public SimWorld {
   FieldRegion region(double cell, const RobotSize& robot) const override {
     FieldRegion region = ground_->space.region(cell, robot);
     for (const GridBody& body : ground_->model.grids)
-      region.surfaceSigma = std::max(
-          region.surfaceSigma, std::hypot(body.map.cell / std::sqrt(12.0), body.mapError));
+      region.surfaceSigma =
+          std::max(region.surfaceSigma, std::hypot(body.map.cell / std::sqrt(12.0), body.mapError));
     return region;
   }
   std::span<const Landmark> landmarks() const override { return ground_->model.landmarks; }

@@ -8,8 +8,8 @@
 
 namespace ortung {
 
-/// Returns the [[grid]] table of a world for a map that a robot made: a surface was seen somewhere in
-/// a cell, so its middle is the best guess, and poses from which it was seen were off, too.
+/// Returns the [[grid]] table of a world for a map that a robot made: a surface was seen somewhere
+/// in a cell, so its middle is the best guess, and poses from which it was seen were off, too.
 /// @param map file, relative to the world's
 ORTUNG_API std::string gridToml(const std::string& map);
 
