@@ -38,8 +38,8 @@ def commit():
     """Words that say which sources a table is of."""
     def git(*words):
         return subprocess.run(["git", "-C", os.path.dirname(__file__), *words], capture_output=True, text=True).stdout.strip()
-    name = git("log", "-1", "--format=%h of %cs")
-    return "%s`%s" % (MEASURED, name.replace(" ", "` ", 1)) + (", with changes" if git("diff", "HEAD", "--", "*.cpp", "*.hpp") else "") + "."
+    changes = ", with changes" if git("diff", "HEAD", "--", ":/*.cpp", ":/*.hpp") else ""
+    return MEASURED + git("log", "-1", "--format=`%h` of %cs") + changes + "."
 
 
 def put(page, tables, of=None):

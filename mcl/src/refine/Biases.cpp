@@ -125,8 +125,9 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
   misfit_ = 0.0;
   fits_ = 0;
   pose_ = estimate.pose;
-  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(mean_.size(), mean_.size());
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(mean_.size());
+  const Eigen::Index size = std::max(kPose, mean_.size());
+  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(size);
   for (std::size_t d = 0; placeOf(d) < mean_.size(); ++d) {
     if (!devices_[d].knowsDistances && !devices_[d].knowsBearings) continue;
     const Eigen::Index at = placeOf(d);
@@ -143,10 +144,6 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
   }
   Eigen::Matrix3d pose = matrixOf(estimate.covariance);
   pose.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
-  if (means.size() < kPose) {
-    means = Eigen::VectorXd::Zero(kPose);
-    kept = Eigen::MatrixXd::Zero(kPose, kPose);
-  }
   kept.topLeftCorner<3, 3>() = pose;
   mean_ = std::move(means);
   covariance_ = std::move(kept);

@@ -71,7 +71,7 @@ class ORTUNG_API Biases {
   std::vector<Device> devices_;
   bool isRunning_ = false;
   int fits_ = 0;   ///< values that fitted since begin()
-  int waits_ = 0;  ///< values since the place was forgotten, or begin()
+  int waits_ = 0;  ///< values that were read since the place was forgotten
   Pose2 pose_;
   Eigen::VectorXd mean_;  ///< mean of all biases; its first three are the pose's error, always zero
   Eigen::MatrixXd covariance_;
