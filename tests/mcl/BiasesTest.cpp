@@ -189,15 +189,18 @@ TEST(Biases, ThatAreKnownOutliveThePlace) {
   expectKnown(drive, 0.3);
 }
 
-TEST(Biases, ThatAreNotKnownYetAreForgottenWithThePlace) {
+TEST(Biases, ThatAreNotKnownYetGoOnToBeLearnedFromAnotherPlace) {
+  // Nearly all of what makes it known was seen before the place was forgotten.
   Drive drive({0.3, 0.0, 0.0}, 3);
   int until = 0;
   for (; drive.biases.known().empty(); ++until) drive.step();
   Drive again({0.3, 0.0, 0.0}, 3);
-  for (int i = 1; i < until; ++i) again.step();
+  for (int i = 2; i < until; ++i) again.step();
   again.biases.forgetPlace();
-  again.step();
-  EXPECT_TRUE(again.biases.known().empty());
+  ASSERT_TRUE(again.biases.known().empty());
+  int after = 0;
+  for (; again.biases.known().empty() && after < until; ++after) again.step();
+  EXPECT_LT(after, until / 2 + 1) << until;
 }
 
 /// Drives, with another bias than the one that is known, until that changes.

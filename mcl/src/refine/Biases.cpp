@@ -23,6 +23,7 @@ using tuning::common::kIndependent, tuning::common::kOutlier;
 
 void Biases::forget() {
   for (Device& device : devices_) device = {std::move(device.name)};
+  mean_.resize(0);
   forgetPlace();
 }
 
@@ -31,8 +32,6 @@ void Biases::forgetPlace() {
   travelled_ = 0.0;
   waits_ = 0;
   for (auto& [data, feature] : features_) feature.learnedAt = -1.0;
-  for (Device& device : devices_)
-    if (!device.knowsDistances && !device.knowsBearings) device = {std::move(device.name)};
 }
 
 void Biases::move(const MotionChange& change) {
@@ -129,7 +128,6 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
   Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd means = Eigen::VectorXd::Zero(size);
   for (std::size_t d = 0; placeOf(d) < mean_.size(); ++d) {
-    if (!devices_[d].knowsDistances && !devices_[d].knowsBearings) continue;
     const Eigen::Index at = placeOf(d);
     means.segment<kTerms>(at) = mean_.segment<kTerms>(at);
     kept.block<kTerms, kTerms>(at, at) = covariance_.block<kTerms, kTerms>(at, at);

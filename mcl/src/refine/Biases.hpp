@@ -21,13 +21,13 @@ namespace ortung {
 /// pose is part of its state, what cannot be observed stays uncertain: one beacon from one place
 /// says nothing about a bias. A known bias is subtracted from the readings before they weigh
 /// samples. A bias that is less than four standard errors from zero, or was learned from few
-/// values, is not applied. A known bias belongs to the device: it outlives the place, unless
-/// readings fit no place with it. Not thread-safe.
+/// values, is not applied. A bias belongs to the device: it outlives the place, unless readings fit
+/// no place with it. Not thread-safe.
 class ORTUNG_API Biases {
  public:
   /// Forgets all biases, as devices may be other ones.
   void forget();
-  /// Forgets the pose alone, as the belief is at another place, and biases that are not known.
+  /// Forgets the pose alone, as something else than odometry has moved the belief.
   void forgetPlace();
   void move(const MotionChange& change);  ///< moves the pose by odometry
   /// Corrects new readings by the known biases. It reads features, so the caller holds the
