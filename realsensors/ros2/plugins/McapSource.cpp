@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -271,7 +272,7 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
       "P5\n" + std::to_string(map_->width) + " " + std::to_string(map_->height) + "\n255\n";
   for (std::size_t row = map_->height; row-- > 0;) {
     for (std::size_t column = 0; column < map_->width; ++column) {
-      const int value = map_->data[row * map_->width + column];
+      const std::int8_t value = map_->data[row * map_->width + column];
       picture += value >= kOccupiedFrom           ? kOccupied
                  : value >= 0 && value <= kFreeTo ? kFree
                                                   : kUnknown;
