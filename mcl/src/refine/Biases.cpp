@@ -23,7 +23,8 @@ using tuning::common::kIndependent, tuning::common::kOutlier;
 
 void Biases::forget() {
   for (Device& device : devices_) device = {std::move(device.name)};
-  mean_.resize(0);
+  mean_ = Eigen::VectorXd::Zero(kPose);
+  covariance_ = Eigen::MatrixXd::Zero(kPose, kPose);
   forgetPlace();
 }
 
@@ -108,10 +109,7 @@ void Biases::follow(const std::vector<NewReading>& news, const PoseEstimate& est
   }
   if (!isRunning_) return;
   if (misfit_ > kMisfits) {
-    if (fits_ < kTrusted)
-      forget();
-    else
-      forgetPlace();
+    fits_ < kTrusted ? forget() : forgetPlace();
     return;
   }
   decide();
@@ -124,14 +122,6 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
   misfit_ = 0.0;
   fits_ = 0;
   pose_ = estimate.pose;
-  const Eigen::Index size = std::max(kPose, mean_.size());
-  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(size);
-  for (std::size_t d = 0; placeOf(d) < mean_.size(); ++d) {
-    const Eigen::Index at = placeOf(d);
-    means.segment<kTerms>(at) = mean_.segment<kTerms>(at);
-    kept.block<kTerms, kTerms>(at, at) = covariance_.block<kTerms, kTerms>(at, at);
-  }
   double metres = 0.1;
   double radians = 0.05;
   for (const ReadingResidual& r : residuals) {
@@ -142,9 +132,9 @@ void Biases::begin(const PoseEstimate& estimate, const std::vector<ReadingResidu
   }
   Eigen::Matrix3d pose = matrixOf(estimate.covariance);
   pose.diagonal() += Eigen::Vector3d(metres * metres, metres * metres, radians * radians);
-  kept.topLeftCorner<3, 3>() = pose;
-  mean_ = std::move(means);
-  covariance_ = std::move(kept);
+  covariance_.topRows<kPose>().setZero();
+  covariance_.leftCols<kPose>().setZero();
+  covariance_.topLeftCorner<kPose, kPose>() = pose;
 }
 
 void Biases::open(std::size_t device, const std::vector<ReadingResidual>& residuals) {

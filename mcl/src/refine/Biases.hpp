@@ -73,8 +73,9 @@ class ORTUNG_API Biases {
   int fits_ = 0;   ///< values that fitted since begin()
   int waits_ = 0;  ///< values that were read since the place was forgotten
   Pose2 pose_;
-  Eigen::VectorXd mean_;  ///< mean of all biases; its first three are the pose's error, always zero
-  Eigen::MatrixXd covariance_;
+  /// Mean of all biases; its first three are the pose's error, always zero.
+  Eigen::VectorXd mean_ = Eigen::VectorXd::Zero(kPose);
+  Eigen::MatrixXd covariance_ = Eigen::MatrixXd::Zero(kPose, kPose);
   double misfit_ = 0.0;  ///< short-term share of outliers
 };
 
