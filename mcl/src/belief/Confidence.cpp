@@ -56,7 +56,9 @@ PoseDistance protectionOf(const Signs& signs, const PoseEstimate& estimate) {
   const bool tracks = estimate.status == TrackStatus::kTracking;
   const bool isOnePlace = estimate.share >= 1.0 - (tracks ? kBeyondTracking : kBeyondUncertain);
   if (isAnywhere(signs, estimate) || (!signs.others && !isOnePlace)) return kUnbounded;
-  const PoseDistance others = signs.others.value_or(PoseDistance());
+  const PoseDistance samples = signs.others.value_or(PoseDistance());
+  const PoseDistance others = {std::max(samples.metres, signs.alike.metres),
+                               std::max(samples.radians, signs.alike.radians)};
   const double sigmas =
       tracks ? tuning::protection::kSigmasTracking : tuning::protection::kSigmasUncertain;
   return {
@@ -89,6 +91,7 @@ double probabilityWithin(const PoseCovariance& covariance, double metres) {
 }
 
 void judge(const Signs& signs, PoseEstimate& estimate) {
+  estimate.share = std::min(estimate.share, signs.shareOfAlike);
   const double narrow = within(estimate);
   // Beyond even odds the covariance says nothing more of whether the place is right.
   const double oddsWithin = std::min(0.0, std::log(narrow / (1.0 - narrow)));

@@ -32,6 +32,10 @@ struct Signs {
   PoseDistance apart = {};  ///< how far the estimate is from where odometry has led to, unexplained
   /// How far from the estimate the belief reaches at other places; nothing: that is not known.
   std::optional<PoseDistance> others = std::nullopt;
+  /// The estimate's share of the probability of places that look like its place, itself among them,
+  /// and how far away those are that can't be left out.
+  double shareOfAlike = 1.0;
+  PoseDistance alike = {};
 };
 
 /// Returns the probability that the position of a pose drawn from a Gaussian with this covariance
@@ -39,7 +43,7 @@ struct Signs {
 ORTUNG_API double probabilityWithin(const PoseCovariance& covariance, double metres);
 
 /// Fills in quality, status, reason and protection level of an estimate whose share and covariance
-/// are already set.
+/// are already set; the share is at most that of places that look alike.
 ORTUNG_API void judge(const Signs& signs, PoseEstimate& estimate);
 
 }  // namespace ortung

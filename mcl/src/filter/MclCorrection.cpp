@@ -10,6 +10,7 @@
 #include "MotionTuning.hpp"
 #include "Reach.hpp"
 #include "Resampling.hpp"
+#include "RivalsTuning.hpp"
 
 namespace ortung {
 namespace {
@@ -231,6 +232,7 @@ bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
 Estimated Mcl::Impl::estimateFrom(Led led) {
   const Timestamp stamp = led.moment.stamp;
   const std::vector<NewReading>& news = *led.moment.news;
+  lookElsewhere(led);
   track->travelled = {};
   estimate = led.estimate;
   estimate.stamp = stamp;
@@ -249,6 +251,17 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   steps.apply(estimate);
   if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
   return {std::move(led.weights), std::move(led.bins)};
+}
+
+/// Follows other places at which readings fit as well.
+void Mcl::Impl::lookElsewhere(const Led& led) {
+  const Lookalikes::Moment moment{led.estimate.pose,
+                                  track->isBlind ? std::nullopt : reached.odometry,
+                                  track->travelled.all, random(Purpose::kRivals).fork(7)};
+  track->lookalikes.follow(moment, led.moment.evidence);
+  if (led.estimate.share >= 1.0 - tuning::lookalikes::kLeastShare) return;
+  track->lookalikes.add(clustersOf(led.bins, track->belief.samples().view(), led.weights,
+                                   tuning::lookalikes::kLeastShare));
 }
 
 /// Returns how far the belief reaches at other places than the estimate's.

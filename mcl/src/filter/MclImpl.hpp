@@ -137,6 +137,7 @@ struct Mcl::Impl {
   [[nodiscard]] Weighed weigh(const std::vector<NewReading>& news, Predicted predicted);
   [[nodiscard]] Led letBestLead(Weighed weighed);
   [[nodiscard]] Estimated estimateFrom(Led led);
+  void lookElsewhere(const Led& led);
   PoseDistance othersOf(const Led& led) const;
   void resample(const Estimated& estimated);
   std::optional<Rivals::Moment> competition(const Moment& moment, const Hypothesis::Said& said);

@@ -10,6 +10,7 @@
 #include "GlobalStart.hpp"
 #include "Hypothesis.hpp"
 #include "Lateness.hpp"
+#include "Lookalikes.hpp"
 #include "Momentum.hpp"
 #include "OdometryTrust.hpp"
 #include "Polish.hpp"
@@ -79,6 +80,7 @@ struct Track {
   SampleSet anchor;  ///< the belief when it was weighed last, while odometry is not trusted
   Recovery recovery;
   Rivals rivals;
+  Lookalikes lookalikes;
   Confirmation confirmation;  ///< confirmation of the place that a global start has found
 };
 

@@ -73,6 +73,32 @@ ORTUNG_CONSTANT(elsewhere, kEffective, 100.0);
 
 }  // namespace elsewhere
 
+/// Places that look like the belief's.
+namespace lookalikes {
+
+/// [nats] Evidence beyond chance from which a place is ruled out: 3,000 times less probable.
+ORTUNG_CONSTANT(lookalikes, kRuledOut, -8.0);
+/// Standard deviations by which sums of ratios differ from 0 by chance. Chosen by hand: the sum of
+/// some hundred is never that far away.
+ORTUNG_CONSTANT(lookalikes, kDeviations, 4.0);
+/// [nats^2] Variance of a sum of ratios beside what they have shown so far. Chosen by hand.
+ORTUNG_CONSTANT(lookalikes, kChance, 0.25);
+/// Number of readings over which ratios are summed.
+ORTUNG_CONSTANT(lookalikes, kRemembered, 100.0);
+/// [m] Standard deviation of the steps in which a place climbs: errors of odometry between
+/// readings. Chosen by hand.
+ORTUNG_CONSTANT(lookalikes, kMetres, 0.1);
+/// [rad] The same for its heading.
+ORTUNG_CONSTANT(lookalikes, kRadians, 0.05);
+/// Steps that are tried. Cost.
+ORTUNG_CONSTANT(lookalikes, kTried, std::size_t{48});
+/// Greatest number of places that are followed. Cost.
+ORTUNG_CONSTANT(lookalikes, kMost, std::size_t{8});
+/// [share] Least share of the belief of a place that is followed. Chosen by hand.
+ORTUNG_CONSTANT(lookalikes, kLeastShare, 0.02);
+
+}  // namespace lookalikes
+
 /// Sightings of a place by several searches.
 namespace sightings {
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "Hypothesis.hpp"
+#include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
+#include "ortung/mcl/PoseEstimate.hpp"
+
+namespace ortung {
+
+/// Places that the belief has had beside the estimate's, until readings rule them out.
+///
+/// Where the world looks the same from several poses (both halves of a soccer field to a laser,
+/// offices of one kind), samples leave all of these places but one sooner or later, by the chance
+/// of resampling alone. So each of them is followed as a pose: it moves as the robot does, climbs
+/// to where the readings fit best near it, and is compared there with the estimate. It is ruled out
+/// once what readings have said against it exceeds what they say by chance. Not thread-safe.
+class ORTUNG_API Lookalikes {
+ public:
+  /// One time step's readings, once they have weighed the belief.
+  struct Moment {
+    Pose2 estimate;                 ///< of the belief, field frame
+    std::optional<Pose2> odometry;  ///< odometry's pose; nothing: there is none that is trusted
+    double travelled = 0.0;         ///< since the readings before [m]; a turn of 1 rad is 1 m
+    Random random;
+  };
+
+  void forget();
+  bool isEmpty() const { return places_.empty(); }
+  /// Compares the places with the estimate. If that is at one of them now, they change roles.
+  void follow(const Moment& moment, const Evidence& evidence);
+  /// Adds the belief's places, if they are new. @param places the estimate's is the first one
+  void add(std::span<const PoseEstimate> places);
+  /// Returns the estimate's share of the probability of all places, in (0, 1]; 1 without others.
+  double shareOfEstimate() const;
+  /// Returns how far the places are from the estimate that may not be left out with a probability
+  /// of more than @p rest.
+  PoseDistance reach(double rest) const;
+
+ private:
+  /// What readings say for a place against the estimate: sums of log-likelihood ratios and of their
+  /// squared deviations from the mean (Welford 1962), over the last hundred or so.
+  struct Place {
+    Pose2 pose;
+    double sum = 0.0;      ///< [nats]
+    double squares = 0.0;  ///< [nats^2]
+    double count = 0.0;
+    double before = 0.0;  ///< what the belief's samples said against it, at most 0 [nats]
+
+    void add(double ratio, double part);
+    /// Returns ln of its probability by that of the estimate, as far as chance does not explain it.
+    double odds() const;
+  };
+  std::vector<double> heights(const Evidence& evidence, Random random);
+  void exchange(const Pose2& left, const Pose2& estimate);
+  void tidy();
+
+  Pose2 estimate_;  ///< at the last readings
+  std::optional<Pose2> odometry_;
+  std::vector<Place> places_;
+};
+
+}  // namespace ortung
