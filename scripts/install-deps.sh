@@ -19,6 +19,8 @@ demo=(
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev
   # MCAP files of ROS 2
   liblz4-dev
+  # digests of what parts of a job were made from
+  libxxhash-dev
 )
 test=(
   # compiling twice what has not changed

@@ -40,6 +40,8 @@ Signature signatureOf(OutputKind kind) {
       return {"a record", "", ""};  // see isOfKind()
     case OutputKind::kTables:
       return {"tables", "PK\x03\x04", "open.npy"};
+    case OutputKind::kPart:
+      return {"a part for `ortung merge`", "PK\x03\x04", "ortung-part.txt"};
     case OutputKind::kFigures:
       return {"figures of `ortung eval`", "{", "\"compared_steps\""};
     case OutputKind::kComparison:

@@ -13,6 +13,7 @@ namespace ortung::app {
 enum class OutputKind : std::uint8_t {
   kRecord,
   kTables,
+  kPart,        ///< part of a job, for `ortung merge`
   kFigures,     ///< JSON of eval
   kComparison,  ///< JSON of compare
   kReport,      ///< HTML of eval

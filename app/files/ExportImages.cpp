@@ -8,8 +8,11 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Outputs.hpp"
+#include "PictureParts.hpp"
 #include "PictureSet.hpp"
 #include "Progress.hpp"
+#include "ScratchFolder.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
@@ -65,10 +68,19 @@ std::vector<Eye> eyesOf(const SensorContainer& container, const RobotConfig& rob
 class Exporter {
  public:
   explicit Exporter(const ExportImagesArguments& arguments)
-      : arguments_(arguments), set_(arguments.out, arguments.force) {}
+      : arguments_(arguments),
+        shard_(arguments.shard.empty() ? Shard() : readShard(arguments.shard)),
+        outputs_(arguments.force) {
+    // A part is one file: its pictures are put together somewhere else.
+    if (isPart()) {
+      outputs_.writes("--out", arguments.out, OutputKind::kPart);
+      scratch_.emplace();
+    }
+    set_.emplace(isPart() ? scratch_->path() : arguments.out, arguments.force);
+  }
 
   bool isDone() const {
-    return set_.size() >= static_cast<std::size_t>(arguments_.count) || interruptSignal() != 0;
+    return number_ >= static_cast<std::size_t>(arguments_.count) || interruptSignal() != 0;
   }
   bool isWanted(Eye& eye) const {
     return eye.seen++ % static_cast<std::size_t>(arguments_.every) == 0;
@@ -77,24 +89,28 @@ class Exporter {
   /// Draws what the camera sees now.
   void draw(Eye& eye, const World& world, const std::string& worldName, const Pose2& robot,
             RobotNumber self) {
+    const std::size_t number = number_++;
+    if (!shard_.has(number)) return;
     const double strength = arguments_.variation.value_or(eye.variation);
-    const std::uint64_t seed = arguments_.seed ? *arguments_.seed + set_.size() : eye.seed;
+    const std::uint64_t seed = arguments_.seed ? *arguments_.seed + number : eye.seed;
     if (!eye.picture)
       eye.picture = std::make_unique<CameraPicture>(*eye.data->camera(), Variation{strength, seed});
     else if (arguments_.seed)
       eye.picture->setVariation({strength, seed});
     const Pose2 sensor = robot * eye.data->mount();
-    eye.picture->take(world, sensor, self, CameraPicture::Noise{seed, set_.size()}, words_);
+    eye.picture->take(world, sensor, self, CameraPicture::Noise{seed, number}, words_);
     eye.data->setData(0, words_);
     annotate(eye, world, sensor, self);
     PictureNotes notes = notesOf(eye, sensor, "simulation");
     notes.location = worldName;
     notes.annotations = annotationsOf(things_, world, *eye.data->camera(), sensor);
-    set_.add(std::move(notes), eye.data->reading(), things_, ranges_);
+    set_->add(number, std::move(notes), eye.data->reading(), things_, ranges_);
   }
 
   /// Takes over a picture that was recorded. @param world may be null @param robot if known
   void copy(Eye& eye, const World* world, const std::optional<Pose2>& robot) {
+    const std::size_t number = number_++;
+    if (!shard_.has(number)) return;
     std::optional<Pose2> sensor;
     if (robot) sensor = *robot * eye.data->mount();
     things_.clear();
@@ -105,15 +121,23 @@ class Exporter {
       annotate(eye, *world, *sensor, 0);
       notes.annotations = annotationsOf(things_, *world, *eye.data->camera(), *sensor);
     }
-    set_.add(std::move(notes), eye.data->reading(), things_, ranges_);
+    set_->add(number, std::move(notes), eye.data->reading(), things_, ranges_);
   }
 
   int finish() {
-    set_.finish();
-    fmt::print("{}: {} pictures\n", printable(arguments_.out.string()), set_.size());
+    const std::size_t own = set_->numbers().size();
+    if (isPart()) {
+      checkInterrupt();  // a part that lacks pictures would be joined with others
+      writePictures(*set_, scratch_->path(), {kPictureParts, arguments_.job, shard_},
+                    outputs_.ready(arguments_.out));
+      fmt::print("{}: part {}, {} of {} pictures\n", printable(arguments_.out.string()),
+                 toText(shard_), own, number_);
+      return 0;
+    }
+    set_->finish();
+    fmt::print("{}: {} pictures\n", printable(arguments_.out.string()), own);
     return 0;
   }
-  std::size_t pictures() const { return set_.size(); }
 
  private:
   PictureNotes notesOf(const Eye& eye, const std::optional<Pose2>& sensor, const char* tag) const {
@@ -133,8 +157,14 @@ class Exporter {
     eye.picture->annotate(world, sensor, self, things_, ranges_);
   }
 
+  bool isPart() const { return !arguments_.shard.empty(); }
+
   const ExportImagesArguments& arguments_;
-  PictureSet set_;
+  Shard shard_;
+  Outputs outputs_;
+  std::optional<ScratchFolder> scratch_;
+  std::optional<PictureSet> set_;
+  std::size_t number_ = 0;  ///< of the next picture, whatever shard has it
   std::vector<std::uint32_t> words_;
   std::vector<std::uint32_t> things_;
   std::vector<float> ranges_;

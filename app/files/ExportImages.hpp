@@ -19,6 +19,8 @@ struct ExportImagesArguments {
   std::optional<double> variation;
   std::optional<std::uint64_t> seed;  ///< seed of the first picture's look; each has the next
   bool anywhere = false;              ///< whether to take pictures at random places
+  std::string shard;                  ///< part of the pictures, "I/N"; "": all of them
+  std::string job;                    ///< all options on which the pictures depend, as JSON
   bool force = false;
   bool progress = false;
 };

@@ -34,6 +34,7 @@ void addExportImages(Builder& build) {
   build.option("--seed", a->seed,
                "Seed of the first picture's look; each picture has one of its own");
   build.flag("--anywhere", a->anywhere, "Take each picture from a place at random");
+  build.shard(a->shard, a->job);
   build.flag("--force", a->force, "Write into a folder that has something in it");
   build.flag("--progress", a->progress, kProgress);
 }

@@ -12,6 +12,8 @@
 namespace ortung::app {
 namespace {
 
+constexpr const char* kImages = "images";  ///< the only key of a data set
+
 constexpr double kConcealed = 0.75;  ///< share of its box; a thing that shows less is concealed
 constexpr int kCorners = 12;         ///< points of a thing's circle that are projected
 
@@ -145,22 +147,26 @@ std::vector<Annotation> annotationsOf(std::span<const std::uint32_t> things, con
   return notes;
 }
 
-std::string annotationsYaml(std::span<const PictureNotes> pictures) {
+std::string annotationYaml(const PictureNotes& notes) {
   YAML::Emitter out;
   out.SetDoublePrecision(9);
-  out << YAML::BeginMap << YAML::Key << "images" << YAML::Value << YAML::BeginMap;
-  for (const PictureNotes& notes : pictures) {
-    out << YAML::Key << notes.file << YAML::Value << YAML::BeginMap;
-    out << YAML::Key << "width" << YAML::Value << notes.size.width;
-    out << YAML::Key << "height" << YAML::Value << notes.size.height;
-    out << YAML::Key << "annotations" << YAML::Value << YAML::BeginSeq;
-    for (const Annotation& one : notes.annotations) emit(out, one);
-    out << YAML::EndSeq << YAML::Key << "metadata" << YAML::Value;
-    emitMetadata(out, notes);
-    out << YAML::EndMap;
-  }
-  out << YAML::EndMap << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
+  out << YAML::BeginMap << YAML::Key << kImages << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << notes.file << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "width" << YAML::Value << notes.size.width;
+  out << YAML::Key << "height" << YAML::Value << notes.size.height;
+  out << YAML::Key << "annotations" << YAML::Value << YAML::BeginSeq;
+  for (const Annotation& one : notes.annotations) emit(out, one);
+  out << YAML::EndSeq << YAML::Key << "metadata" << YAML::Value;
+  emitMetadata(out, notes);
+  out << YAML::EndMap << YAML::EndMap << YAML::EndMap;
+  const std::string text = out.c_str();
+  return text.substr(text.find('\n') + 1) + "\n";  // without the line of the data set
+}
+
+std::string annotationsYaml(std::span<const std::string> pictures) {
+  std::string text = std::string(kImages) + ":\n";
+  for (const std::string& picture : pictures) text += picture;
+  return pictures.empty() ? text + "  {}\n" : text;
 }
 
 }  // namespace ortung::app

@@ -40,8 +40,11 @@ struct PictureNotes {
   std::string set;       ///< camera that took it
 };
 
-/// Returns the YAML of a data set of pictures, with the keys of the TORSO-21 data set (Bestmann et
-/// al., "TORSO-21 Dataset: Typical Objects in RoboCup Soccer 2021").
-std::string annotationsYaml(std::span<const PictureNotes> pictures);
+/// Returns the YAML of a picture, an entry of a data set's: with the keys of the TORSO-21 data set
+/// (Bestmann et al., "TORSO-21 Dataset: Typical Objects in RoboCup Soccer 2021").
+std::string annotationYaml(const PictureNotes& picture);
+
+/// Returns the YAML of a data set of pictures. @param pictures their annotationYaml()
+std::string annotationsYaml(std::span<const std::string> pictures);
 
 }  // namespace ortung::app

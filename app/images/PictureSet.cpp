@@ -25,23 +25,27 @@ constexpr double kFarthest = 65.535;  ///< greatest depth in 16 bits of millimet
 
 }  // namespace
 
-PictureSet::PictureSet(fs::path folder, bool force) : folder_(std::move(folder)) {
+void makePictureFolder(const fs::path& folder, bool force) {
   std::error_code error;
-  if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
-    throw std::runtime_error(folder_.string() + ": is a file, expected a folder");
-  if (!force && fs::exists(folder_, error) && !fs::is_empty(folder_, error))
-    throw std::runtime_error(folder_.string() +
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw std::runtime_error(folder.string() + ": is a file, expected a folder");
+  if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
+    throw std::runtime_error(folder.string() +
                              ": is not empty; name an empty or new folder, or use "
                              "--force to overwrite pictures");
   for (const char* part : {"images", "segmentations", "depth"}) {
-    fs::create_directories(folder_ / part, error);
-    if (error) throw std::runtime_error((folder_ / part).string() + ": " + error.message());
+    fs::create_directories(folder / part, error);
+    if (error) throw std::runtime_error((folder / part).string() + ": " + error.message());
   }
 }
 
-void PictureSet::add(PictureNotes notes, const ImageView& image,
+PictureSet::PictureSet(fs::path folder, bool force) : folder_(std::move(folder)) {
+  makePictureFolder(folder_, force);
+}
+
+void PictureSet::add(std::size_t number, PictureNotes notes, const ImageView& image,
                      std::span<const std::uint32_t> things, std::span<const float> ranges) {
-  notes.file = fmt::format("{:06}.png", pictures_.size());
+  notes.file = fmt::format("{:06}.png", number);
   notes.size = image.size;
   writePng(folder_ / "images" / notes.file, image);
   if (!things.empty()) {
@@ -63,9 +67,10 @@ void PictureSet::add(PictureNotes notes, const ImageView& image,
     std::replace(file.begin(), file.end(), '/', '-');
     writeFile(folder_ / file, toToml(*notes.camera));
   }
-  pictures_.push_back(std::move(notes));
+  numbers_.push_back(number);
+  annotations_.push_back(annotationYaml(notes));
 }
 
-void PictureSet::finish() { writeFile(folder_ / "annotations.yaml", annotationsYaml(pictures_)); }
+void PictureSet::finish() { writeFile(folder_ / kAnnotations, annotationsYaml(annotations_)); }
 
 }  // namespace ortung::app

@@ -10,6 +10,7 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "LearnParts.hpp"
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -40,11 +41,7 @@ PlayerWish wishOf(const LearnArguments& arguments, const std::filesystem::path& 
   wish.options.set("cell_m", arguments.cell);
   wish.options.set("heading_step_deg", 360.0 / std::round(360.0 / arguments.headingStepDeg));
   wish.options.set("threads", static_cast<double>(arguments.threads));
-  wish.options.set("area", arguments.area);
-  if (arguments.area != "auto" && arguments.area != "all") {
-    const std::vector<double> point = parseNumbers(arguments.area, "--area", {"x", "y"});
-    wish.options.set("area", fmt::format("{};{}", point[0], point[1]));
-  }
+  wish.options.set("area", areaOf(arguments));
   return wish;
 }
 
@@ -127,13 +124,24 @@ void letLearn(const LearnArguments& arguments, const std::filesystem::path& out)
 
 }  // namespace
 
+std::string areaOf(const LearnArguments& arguments) {
+  if (arguments.area == "auto" || arguments.area == "all") return arguments.area;
+  const std::vector<double> point = parseNumbers(arguments.area, "--area", {"x", "y"});
+  return fmt::format("{};{}", point[0], point[1]);
+}
+
 int runLearn(const LearnArguments& arguments) {
   checkHeadingStep(arguments.headingStepDeg);
   Outputs outputs(arguments.force);
   outputs.reads(arguments.world);
   outputs.reads(arguments.robot);
-  outputs.writes("--out", arguments.out, OutputKind::kTables);
+  const bool isPart = !arguments.shard.empty();
+  outputs.writes("--out", arguments.out, isPart ? OutputKind::kPart : OutputKind::kTables);
   readRobot(arguments.robot);
+  if (isPart) {
+    learnShard(arguments, readShard(arguments.shard), outputs.ready(arguments.out));
+    return 0;
+  }
   letLearn(arguments, outputs.ready(arguments.out));
   return 0;
 }

@@ -29,6 +29,7 @@ void addLearn(Builder& build) {
   build.option("--threads", a->threads, "Threads; what is learned does not depend on it")
       .within(1, 256)
       .showsDefault();
+  build.shard(a->shard, a->job);
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }

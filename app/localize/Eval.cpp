@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "Console.hpp"
+#include "EvalParts.hpp"
 #include "EvalRun.hpp"
 #include "Localizing.hpp"
 #include "ManyRuns.hpp"
@@ -92,7 +93,8 @@ Outputs outputsOf(const EvalArguments& arguments, std::size_t runs) {
   declareInputs(arguments.localization, outputs);
   for (const std::string& source : arguments.sources) outputs.readsSource(source);
   outputs.reads(arguments.bound);
-  outputs.writes("--json", arguments.json, OutputKind::kFigures);
+  outputs.writes("--json", arguments.json,
+                 arguments.shard.empty() ? OutputKind::kFigures : OutputKind::kPart);
   outputs.writes("--report", arguments.report, OutputKind::kReport);
   outputs.writes("--record", arguments.record, OutputKind::kRecord);
   return outputs;
@@ -157,6 +159,30 @@ void refuseToView(const EvalArguments& arguments, std::size_t jobs) {
       "faults, kidnaps and wake-ups");
 }
 
+/// Makes the runs of a shard only, and writes them as a part.
+int runShard(const EvalSettings& settings, std::vector<EvalJob> jobs, const Outputs& outputs) {
+  const EvalArguments& arguments = settings.arguments;
+  const Shard shard = readShard(arguments.shard);
+  if (arguments.json.empty()) throw UsageError("--shard writes a part, expected its name: --json");
+  if (!arguments.report.empty() || !arguments.record.empty() || arguments.isViewing)
+    throw UsageError("--report, --record and --view do not go with --shard");
+  refuseLive(arguments, jobs);
+  const std::size_t all = jobs.size();
+  EvalPart part;
+  std::vector<EvalJob> own;
+  for (std::size_t i = 0; i < all; ++i) {
+    if (!shard.has(i)) continue;
+    part.numbers.push_back(i);
+    own.push_back(std::move(jobs[i]));
+  }
+  if (!own.empty())
+    for (const RunResult& run : runAll(settings, std::move(own))) part.runs.push_back(keptOf(run));
+  write(part, {kEvalParts, arguments.job, shard}, outputs.ready(arguments.json));
+  fmt::print("{}: part {}, {} of {} runs\n", arguments.json.string(), toText(shard),
+             part.runs.size(), all);
+  return 0;
+}
+
 }  // namespace
 
 int runEval(const EvalArguments& arguments) {
@@ -166,6 +192,7 @@ int runEval(const EvalArguments& arguments) {
   std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());
   if (arguments.isViewing) refuseToView(arguments, jobs.size());
+  if (!arguments.shard.empty()) return runShard(settings, std::move(jobs), outputs);
   if (jobs.size() == 1 && jobs.front().kind == RunKind::kWhole) {
     const RunResult run = runOne(settings, jobs.front(), outputs);
     if (!arguments.json.empty()) outputs.write(arguments.json, toJson(run));

@@ -26,6 +26,9 @@ struct EvalArguments {
   std::vector<std::string> faults;  ///< faults of readings, "WHAT=FAULT[:VALUE][@FROM-TO]"
   std::string commandLine;          ///< the command line, for the report
   bool isViewing = false;           ///< whether to show the run afterwards
+  bool timesNothing = false;        ///< whether to leave out how long updates took
+  std::string shard;                ///< part of the work, "I/N"; "": all of it
+  std::string job;                  ///< all options on which the figures depend, as JSON
   std::filesystem::path bound;      ///< world of all sources, for the bound; "": none
 };
 int runEval(const EvalArguments& arguments);

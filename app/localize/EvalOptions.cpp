@@ -31,6 +31,9 @@ void addEval(Builder& build) {
   build.flag("--against-grid", a->localization.besideGrid,
              "Also compare MCL's samples with the belief of the grid filter after the same "
              "readings");
+  build.flag("--no-times", a->timesNothing,
+             "Leave out how long updates took, so that equal runs write equal figures");
+  build.shard(a->shard, a->job);
   build.flag("--view", a->isViewing,
              "Show the run of a single source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");

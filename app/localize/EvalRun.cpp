@@ -165,6 +165,14 @@ std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::ve
   }
 }
 
+/// Takes away what a clock has measured.
+void forgetTimes(RunResult& run) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  run.updateMs.clear();
+  EvaluationResult& figures = run.figures;
+  figures.updateMsP50 = figures.updateMsP99 = figures.updateMsMax = figures.realtimeFactor = kNan;
+}
+
 /// Returns a run without what summaries do not need.
 RunResult lightened(RunResult run) {
   if (run.figures.convergedAfter) {
@@ -250,6 +258,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   requireUpdates(result.figures.steps, arguments);
   if (job.warns) warnWithoutErrors(result);
   if (record) record->commit();
+  if (settings.arguments.timesNothing) forgetTimes(result);
   return std::move(result);
 }
 

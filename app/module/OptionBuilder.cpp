@@ -5,10 +5,14 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "CommandGroup.hpp"
 
@@ -27,6 +31,14 @@ CLI::Validator withinBounds(double low, double high) {
         return fits ? "" : fmt::format("is '{}', expected {}", text, what);
       },
       "");
+}
+
+/// Whether a result never depends on an option of that name.
+bool neverMatters(const std::string& name) {
+  static constexpr std::array<std::string_view, 10> kNames = {
+      "--threads", "--progress", "--force", "--shard",          "--out",
+      "--json",    "--html",     "--help",  "--plugin-seconds", "--view"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
 }  // namespace
@@ -69,6 +81,10 @@ Builder::Builder(CLI::App& root, ParsedCommand& parsed, std::string commandLine)
 
 void Builder::begin(const std::string& name, const std::string& example, std::function<int()> run) {
   current_ = &addCommand(root_, name);
+  afterParsing_ = std::make_shared<std::vector<std::function<void()>>>();
+  current_->parse_complete_callback([actions = afterParsing_] {
+    for (const auto& action : *actions) action();
+  });
   current_->footer("Example:\n  " + example);
   option("--plugin-seconds", parsed_.pluginSeconds,
          "Longest time of a plugin's call, after which the program saves its results and ends "
@@ -113,10 +129,14 @@ void Builder::footer(std::function<std::string()> text) { current_->footer(std::
 
 std::size_t Builder::options() const { return current_->get_options().size(); }
 
+void Builder::afterParsing(std::function<void()> action) {
+  afterParsing_->push_back(std::move(action));
+}
+
 void Builder::keepGiven(std::size_t from, std::vector<std::string>& words) {
   const std::vector<CLI::Option*> all = current_->get_options();
   const std::vector<CLI::Option*> ours(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
-  current_->parse_complete_callback([ours, &words] {
+  afterParsing([ours, &words] {
     for (const CLI::Option* option : ours) {
       if (option->count() == 0) continue;
       words.push_back("--" + option->get_lnames().front());
@@ -124,6 +144,26 @@ void Builder::keepGiven(std::size_t from, std::vector<std::string>& words) {
       words.insert(words.end(), option->results().begin(), option->results().end());
     }
   });
+}
+
+Option Builder::shard(std::string& shard, std::string& job) {
+  Option declared =
+      option("--shard", shard,
+             "I/N: do the I-th of N parts of the work only, and write a part for `ortung merge`");
+  afterParsing([command = current_, &job] {
+    nlohmann::ordered_json options;
+    for (const CLI::Option* one : command->get_options()) {
+      const std::string name = one->get_name();
+      if (neverMatters(name)) continue;
+      // Where nothing is given, the default tells; an option without one is like one not given.
+      if (one->count() > 0)
+        options[name] = one->results();
+      else if (!one->get_default_str().empty())
+        options[name] = {one->get_default_str()};
+    }
+    job = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  });
+  return declared;
 }
 
 }  // namespace ortung::app

@@ -73,14 +73,21 @@ class Builder {
   /// Stores, once the command line is parsed, the words that set the options from number @p from up
   /// to here, for another command that has these options, too.
   void keepGiven(std::size_t from, std::vector<std::string>& words);
+  /// Declares the option --shard of a command whose work can be cut.
+  /// @param job gets all other options as a JSON object, once the command line is parsed: whatever
+  ///   the result depends on, since only those are left out that never matter (threads, outputs)
+  Option shard(std::string& shard, std::string& job);
 
  private:
   void begin(const std::string& name, const std::string& example, std::function<int()> run);
+  void afterParsing(std::function<void()> action);
 
   CLI::App& root_;
   ParsedCommand& parsed_;
   std::string commandLine_;
   CLI::App* current_ = nullptr;
+  /// What the command does once its options are parsed; the library keeps one function only.
+  std::shared_ptr<std::vector<std::function<void()>>> afterParsing_;
 };
 
 }  // namespace ortung::app

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "Console.hpp"
+#include "GoalkeeperParts.hpp"
 #include "Interrupt.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -14,19 +15,6 @@
 
 namespace ortung::app {
 namespace {
-
-/// Parses "2/4". @throws UsageError
-void readShard(const std::string& text, GoalMatrixConfig& config) {
-  const std::size_t slash = text.find('/');
-  const auto number = [&](const std::string& part) {
-    const bool isNumber = !part.empty() && part.size() <= 9 &&
-                          part.find_first_not_of("0123456789") == std::string::npos;
-    if (!isNumber) throw UsageError("--shard is '" + text + "', expected I/N, e.g. 2/4");
-    return std::stoull(part);
-  };
-  config.shard = number(text.substr(0, slash));
-  config.shards = number(slash == std::string::npos ? "" : text.substr(slash + 1));
-}
 
 GoalMatrix readMatrix(const std::filesystem::path& file) {
   std::string why;
@@ -75,9 +63,10 @@ std::vector<std::string> keepersOf(const GoalkeeperBenchmarkArguments& a) {
 }
 
 void writeResults(const GoalMatrix& matrix, const std::filesystem::path& json,
-                  const std::filesystem::path& html, Outputs& outputs) {
+                  const std::filesystem::path& html, const Outputs& outputs) {
   if (!json.empty()) outputs.write(json, toJson(matrix, ORTUNG_VERSION));
   if (!html.empty()) outputs.write(html, toHtml(matrix, ORTUNG_VERSION));
+  fmt::print("{}", toText(matrix));
 }
 
 }  // namespace
@@ -86,7 +75,9 @@ int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
   GoalMatrixConfig config;
   config.episodes = a.episodes;
   config.seed = a.seed;
-  readShard(a.shard, config);
+  const Shard shard = a.shard.empty() ? Shard() : readShard(a.shard);
+  config.shard = shard.number;
+  config.shards = shard.count;
   for (const std::string& name : a.strikers) config.strikers.push_back(strikerText(name));
   config.keepers = keepersOf(a);
   if (a.strikers.empty())
@@ -97,16 +88,25 @@ int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  const bool isPart = !a.shard.empty();
+  if (isPart && a.json.empty())
+    throw UsageError("--shard writes a part, expected its name: --json");
+  if (isPart && !a.html.empty())
+    throw UsageError("--html does not go with --shard, but with merge");
   Outputs outputs(a.force);
-  outputs.writes("--json", a.json, OutputKind::kBenchmark);
+  outputs.writes("--json", a.json, isPart ? OutputKind::kPart : OutputKind::kBenchmark);
   outputs.writes("--html", a.html, OutputKind::kPage);
   GoalMatrix matrix;
   {
     Progress progress("playing", a.progress);
     matrix = playMatrix(config, runOf(a.threads, progress));
   }
+  if (isPart) {
+    write(matrix, {kGoalkeeperParts, a.job, shard}, outputs.ready(a.json));
+    fmt::print("{}: part {}\n", a.json.string(), toText(shard));
+    return 0;
+  }
   writeResults(matrix, a.json, a.html, outputs);
-  fmt::print("{}", toText(matrix));
   return 0;
 }
 
@@ -137,11 +137,11 @@ int runBenchmarkMerge(const BenchmarkMergeArguments& a) {
   for (const auto& file : a.files) outputs.reads(file);
   outputs.writes("--json", a.json, OutputKind::kBenchmark);
   outputs.writes("--html", a.html, OutputKind::kPage);
-  std::vector<GoalMatrix> shards;
-  for (const auto& file : a.files) shards.push_back(readMatrix(file));
-  const GoalMatrix matrix = mergeShards(shards);
-  writeResults(matrix, a.json, a.html, outputs);
-  fmt::print("{}", toText(matrix));
+  const PartSet parts(a.files);
+  if (parts.head().kind != kGoalkeeperParts)
+    throw PartError({"the parts are of '" + printable(parts.head().kind) +
+                     "', expected those of `ortung benchmark goalkeeper`"});
+  writeResults(mergeMatrices(parts), a.json, a.html, outputs);
   return 0;
 }
 

@@ -15,7 +15,8 @@ struct GoalkeeperBenchmarkArguments {
   std::uint64_t episodes = 1000;      ///< number of episodes of each pair
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  std::string shard = "1/1";   ///< part of the episodes, "I/N"
+  std::string shard;           ///< part of the episodes, "I/N"; "": all of them
+  std::string job;             ///< all options on which the figures depend, as JSON
   std::filesystem::path json;  ///< JSON to write; "": none
   std::filesystem::path html;  ///< HTML to write; "": none
   bool force = false;          ///< whether to overwrite files of other kinds
@@ -40,6 +41,7 @@ struct BenchmarkMergeArguments {
   std::filesystem::path html;  ///< HTML to write; "": none
   bool force = false;          ///< whether to overwrite files of other kinds
 };
+/// Does what `ortung merge` does for parts of the benchmark; it was there before.
 int runBenchmarkMerge(const BenchmarkMergeArguments& arguments);
 
 }  // namespace ortung::app

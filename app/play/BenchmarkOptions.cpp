@@ -32,10 +32,7 @@ void addGoalkeeper(Builder& build) {
   build.option("--threads", a->threads, "Episodes that are played at the same time")
       .within(1, 256)
       .showsDefault();
-  build
-      .option("--shard", a->shard,
-              "I/N: play the I-th of N parts only; `ortung benchmark merge` joins them")
-      .showsDefault();
+  build.shard(a->shard, a->job);
   build.option("--json", a->json, "Also write all figures and episodes");
   build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
   build.flag("--force", a->force, kForce);
@@ -60,9 +57,9 @@ void addVerify(Builder& build) {
 
 void addMerge(Builder& build) {
   const auto a = build.command<BenchmarkMergeArguments>(
-      "benchmark merge", "ortung benchmark merge part1.json part2.json --json matrix.json",
+      "benchmark merge", "ortung benchmark merge 1.part 2.part --json matrix.json",
       runBenchmarkMerge);
-  build.option("files", a->files, "JSON of all shards").required();
+  build.option("files", a->files, "Parts of all shards").required();
   build.option("--json", a->json, "File to write");
   build.option("--html", a->html, "Also write a page with all figures and pictures of episodes");
   build.flag("--force", a->force, kForce);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "Console.hpp"
@@ -17,6 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kWhole = "whole";  ///< nameOf(RunKind::kWhole)
 
 struct Share {
   std::size_t count = 0;
@@ -33,10 +35,27 @@ Spread spreadOf(const std::vector<double>& values) {
           quantile(values, 1.0)};
 }
 
+/// A kept run whose figures are parsed.
+struct Run {
+  Json figures;
+  const KeptRun* kept = nullptr;
+
+  const Json& at(const char* key) const { return figures.at(key); }
+  /// Returns a figure; NaN for null.
+  double number(const char* key) const { return numberOf(at(key)); }
+  std::size_t count(const char* key) const { return at(key).get<std::size_t>(); }
+  std::string source() const { return at("source").get<std::string>(); }
+  std::string kind() const {
+    return figures.contains("case") ? at("case").at("kind").get<std::string>() : kWhole;
+  }
+  Json events() const { return figures.contains("case") ? at("case").at("events") : Json::array(); }
+  static double numberOf(const Json& value) { return value.is_null() ? kNan : value.get<double>(); }
+};
+
 /// The summary of all runs of one source and kind.
 struct Summary {
   std::string source;
-  RunKind kind = RunKind::kWhole;
+  std::string kind;  ///< name of a RunKind
   std::size_t runs = 0;
   Share converged;  ///< runs that converged
   Share kept;       ///< runs that converged and were never lost after that
@@ -71,43 +90,35 @@ class TimeMean {
 
 class Adding {
  public:
-  explicit Adding(const RunResult& first) {
-    summary_.source = first.figures.source;
-    summary_.kind = first.kind;
+  explicit Adding(const Run& first) {
+    summary_.source = first.source();
+    summary_.kind = first.kind();
   }
-  bool isOf(const RunResult& run) const {
-    return run.figures.source == summary_.source && run.kind == summary_.kind;
+  bool isOf(const Run& run) const {
+    return run.source() == summary_.source && run.kind() == summary_.kind;
   }
-  void add(const RunResult& run) {
-    const EvaluationResult& figures = run.figures;
+  void add(const Run& run) {
     ++summary_.runs;
-    const bool hasConverged = figures.convergedAfter.has_value();
+    const bool hasConverged = !run.at("converged_after_s").is_null();
+    const double lostShare = run.number("lost_share");
     summary_.converged.count += hasConverged ? 1 : 0;
-    summary_.kept.count += hasConverged && figures.overTime.lostShare == 0.0 ? 1 : 0;
-    errors_.insert(errors_.end(), run.errors.begin(), run.errors.end());
-    updateMs_.insert(updateMs_.end(), run.updateMs.begin(), run.updateMs.end());
-    lost_.add(figures.overTime.lostShare, run.errors.size());
-    nees_.add(figures.overTime.neesMean, run.errors.size());
-    tracking_.add(figures.trackingShare, figures.overTime.compared);
-    wrongWhileTracking_.add(figures.wrongWhileTrackingShare, figures.overTime.compared);
-    if (std::isfinite(figures.beyondProtectionShare)) {
-      ++summary_.within.of;
-      summary_.within.count += figures.beyondProtectionShare == 0.0 ? 1 : 0;
-      const double tracked = figures.trackingShare * static_cast<double>(figures.overTime.compared);
-      beyondProtection_.add(figures.beyondProtectionShare,
-                            static_cast<std::size_t>(std::llround(tracked)));
+    summary_.kept.count += hasConverged && lostShare == 0.0 ? 1 : 0;
+    errors_.insert(errors_.end(), run.kept->errors.begin(), run.kept->errors.end());
+    updateMs_.insert(updateMs_.end(), run.kept->updateMs.begin(), run.kept->updateMs.end());
+    lost_.add(lostShare, run.kept->errors.size());
+    nees_.add(run.number("nees_mean"), run.kept->errors.size());
+    addTracking(run);
+    if (run.kind() == kWhole && hasConverged) {
+      after_.push_back(run.number("converged_after_s"));
+      travelled_.push_back(run.number("converged_after_m"));
     }
-    if (run.kind == RunKind::kWhole && hasConverged) {
-      after_.push_back(*figures.convergedAfter);
-      travelled_.push_back(figures.convergedDistance);
-    }
-    for (const CaseEvent& event : run.events) {
+    for (const Json& event : run.events()) {
       ++summary_.right.of;
-      if (!event.isRight) continue;
+      if (!event.at("right").get<bool>()) continue;
       ++summary_.right.count;
-      after_.push_back(event.after);
-      travelled_.push_back(event.travelled);
-      readings_.push_back(static_cast<double>(event.readings));
+      after_.push_back(event.at("after_s"));
+      travelled_.push_back(event.at("after_m"));
+      readings_.push_back(event.at("after_readings"));
     }
   }
   Summary summary() const {
@@ -127,6 +138,19 @@ class Adding {
   }
 
  private:
+  void addTracking(const Run& run) {
+    const std::size_t moments = run.count("compared_moments");
+    const double trackingShare = run.number("tracking_share");
+    const double beyond = run.number("beyond_protection_share");
+    tracking_.add(trackingShare, moments);
+    wrongWhileTracking_.add(run.number("wrong_while_tracking_share"), moments);
+    if (!std::isfinite(beyond)) return;
+    ++summary_.within.of;
+    summary_.within.count += beyond == 0.0 ? 1 : 0;
+    const double tracked = trackingShare * static_cast<double>(moments);
+    beyondProtection_.add(beyond, static_cast<std::size_t>(std::llround(tracked)));
+  }
+
   Summary summary_;
   std::vector<double> errors_;
   std::vector<double> updateMs_;
@@ -141,9 +165,9 @@ class Adding {
 };
 
 /// Returns the summaries in the order of their first runs.
-std::vector<Summary> summariesOf(const std::vector<RunResult>& runs) {
+std::vector<Summary> summariesOf(const std::vector<Run>& runs) {
   std::vector<Adding> groups;
-  for (const RunResult& run : runs) {
+  for (const Run& run : runs) {
     auto group = groups.begin();
     while (group != groups.end() && !group->isOf(run)) ++group;
     if (group == groups.end()) group = groups.insert(groups.end(), Adding(run));
@@ -173,8 +197,8 @@ Json jsonOf(const Spread& spread) {
 }
 
 Json jsonOf(const Summary& s) {
-  Json json = {{"source", s.source}, {"kind", nameOf(s.kind)}, {"runs", s.runs}};
-  if (s.kind == RunKind::kWhole) {
+  Json json = {{"source", s.source}, {"kind", s.kind}, {"runs", s.runs}};
+  if (s.kind == kWhole) {
     json["converged"] = jsonOf(s.converged);
     json["never_lost"] = jsonOf(s.kept);
   } else {
@@ -182,7 +206,7 @@ Json jsonOf(const Summary& s) {
   }
   json["after_s"] = jsonOf(s.after);
   json["after_m"] = jsonOf(s.travelled);
-  if (s.kind != RunKind::kWhole) json["after_readings"] = jsonOf(s.readings);
+  if (s.kind != kWhole) json["after_readings"] = jsonOf(s.readings);
   json["position_m"] = jsonOf(s.position);
   json["lost_share"] = jsonNumber(s.lostShare);
   json["tracking_share"] = jsonNumber(s.trackingShare);
@@ -216,29 +240,32 @@ std::string show(double value, int digits, const char* unit) {
   return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "-";
 }
 
-std::string listOfCases(const std::vector<RunResult>& runs, const Summary& s) {
+std::string listOfCases(const std::vector<Run>& runs, const Summary& s) {
   std::string text;
-  for (const RunResult& run : runs) {
-    if (run.figures.source != s.source || run.kind != s.kind) continue;
-    for (const CaseEvent& event : run.events) {
-      const std::string result = event.isRight
-                                     ? fmt::format("right after {:.1f} s, {:.1f} m, {} readings",
-                                                   event.after, event.travelled, event.readings)
-                                     : "never right";
-      text += fmt::format("    {} {} (seed {}), at {:.1f} s in ({:.2f}, {:.2f}) m: {}\n",
-                          nameOf(run.kind), run.number, run.seed, event.at, event.place.x,
-                          event.place.y, result);
+  for (const Run& run : runs) {
+    if (run.source() != s.source || run.kind() != s.kind) continue;
+    for (const Json& event : run.events()) {
+      const auto number = [&](const char* key) { return Run::numberOf(event.at(key)); };
+      const std::string result =
+          event.at("right").get<bool>()
+              ? fmt::format("right after {:.1f} s, {:.1f} m, {} readings", number("after_s"),
+                            number("after_m"), event.at("after_readings").get<std::size_t>())
+              : "never right";
+      text += fmt::format("    {} {} (seed {}), at {:.1f} s in ({:.2f}, {:.2f}) m: {}\n", s.kind,
+                          run.at("case").at("number").get<std::size_t>(),
+                          run.at("seed").get<std::uint64_t>(), number("at_s"), number("x_m"),
+                          number("y_m"), result);
     }
   }
   return text;
 }
 
-std::string show(const std::vector<RunResult>& runs, const Summary& s) {
-  const bool isWhole = s.kind == RunKind::kWhole;
+std::string show(const std::vector<Run>& runs, const Summary& s) {
+  const bool isWhole = s.kind == kWhole;
   std::string text = fmt::format("{}: {} {}\n", printable(s.source), s.runs,
-                                 isWhole ? "runs" : std::string(nameOf(s.kind)) + " runs");
-  for (const std::string& fault : runs.front().faults)
-    text += fmt::format("  with {}\n", printable(fault));
+                                 isWhole ? "runs" : printable(s.kind) + " runs");
+  for (const Json& fault : runs.front().at("faults"))
+    text += fmt::format("  with {}\n", printable(fault.get<std::string>()));
   text += isWhole ? line("Converged", show(s.converged)) +
                         line("Converged and never lost", show(s.kept))
                   : line("Right", show(s.right));
@@ -256,22 +283,55 @@ std::string show(const std::vector<RunResult>& runs, const Summary& s) {
   return text + listOfCases(runs, s);
 }
 
+std::vector<Run> parsed(const std::vector<KeptRun>& kept) {
+  std::vector<Run> runs;
+  runs.reserve(kept.size());
+  for (const KeptRun& run : kept) runs.push_back({Json::parse(run.figures), &run});
+  return runs;
+}
+
+/// Calls an action on the runs; figures of another kind become an error.
+template <class Action>
+std::string withParsed(const std::vector<KeptRun>& runs, const Action& action) {
+  try {
+    return action(parsed(runs));
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(std::string("figures of a run can't be read: ") + error.what());
+  }
+}
+
+std::vector<KeptRun> keptOf(const std::vector<RunResult>& runs) {
+  std::vector<KeptRun> kept;
+  kept.reserve(runs.size());
+  for (const RunResult& run : runs) kept.push_back(keptOf(run));
+  return kept;
+}
+
 }  // namespace
 
-std::string toJson(const std::vector<RunResult>& runs) {
-  std::size_t compared = 0;
-  for (const RunResult& run : runs) compared += run.figures.atCorrections.compared;
-  // This is the first key, so that the kind of file can be recognized by its beginning.
-  Json json = {{"compared_steps", compared}, {"summary", Json::array()}, {"runs", Json::array()}};
-  for (const Summary& summary : summariesOf(runs)) json["summary"].push_back(jsonOf(summary));
-  for (const RunResult& run : runs) json["runs"].push_back(jsonOf(run));
-  return jsonText(json);
+KeptRun keptOf(const RunResult& run) { return {toJson(run), run.errors, run.updateMs}; }
+
+std::string toJson(const std::vector<KeptRun>& kept) {
+  return withParsed(kept, [](std::vector<Run> runs) {
+    std::size_t compared = 0;
+    for (const Run& run : runs) compared += run.count("compared_steps");
+    // This is the first key, so that the kind of file can be recognized by its beginning.
+    Json json = {{"compared_steps", compared}, {"summary", Json::array()}, {"runs", Json::array()}};
+    for (const Summary& summary : summariesOf(runs)) json["summary"].push_back(jsonOf(summary));
+    for (Run& run : runs) json["runs"].push_back(std::move(run.figures));
+    return jsonText(json);
+  });
 }
 
-std::string toText(const std::vector<RunResult>& runs) {
-  std::string text;
-  for (const Summary& summary : summariesOf(runs)) text += show(runs, summary);
-  return text;
+std::string toText(const std::vector<KeptRun>& kept) {
+  return withParsed(kept, [](const std::vector<Run>& runs) {
+    std::string text;
+    for (const Summary& summary : summariesOf(runs)) text += show(runs, summary);
+    return text;
+  });
 }
+
+std::string toJson(const std::vector<RunResult>& runs) { return toJson(keptOf(runs)); }
+std::string toText(const std::vector<RunResult>& runs) { return toText(keptOf(runs)); }
 
 }  // namespace ortung::app

@@ -49,6 +49,7 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
   const std::string samples[] = {
       "# ortung record 1\n",
       "PK\x03\x04 ... open.npy",
+      "PK\x03\x04 ... ortung-part.txt",
       "{\n  \"source\": \"x\", \"compared_steps\": 3",
       "{\n  \"pairs\": 10,",
       "<!DOCTYPE html>",

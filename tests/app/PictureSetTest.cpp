@@ -3,6 +3,7 @@
 #include <png.h>
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -59,12 +60,11 @@ class PictureSetTest : public testing::Test {
 
 TEST_F(PictureSetTest, HasNumberedPicturesWithTheirPixels) {
   PictureSet set(folder_ / "set", false);
-  EXPECT_EQ(set.size(), 0u);
-  set.add(notesOf(&camera_, "front/camera/image"), image_, {}, {});
-  set.add(notesOf(&camera_, "front/camera/image"), image_, {}, {});
-  set.add(notesOf(nullptr, "rear/camera/image"), image_, {}, {});
+  set.add(0, notesOf(&camera_, "front/camera/image"), image_, {}, {});
+  set.add(1, notesOf(&camera_, "front/camera/image"), image_, {}, {});
+  set.add(2, notesOf(nullptr, "rear/camera/image"), image_, {}, {});
   set.finish();
-  EXPECT_EQ(set.size(), 3u);
+  EXPECT_EQ(set.numbers(), (std::vector<std::size_t>{0, 1, 2}));
   const DecodedPng picture = pictureIn(folder_ / "set/images/000002.png");
   EXPECT_TRUE(picture.is(0, 0, {1, 2, 3}));
   EXPECT_TRUE(picture.is(1, 0, {4, 5, 6}));
@@ -80,15 +80,15 @@ TEST_F(PictureSetTest, HasNumberedPicturesWithTheirPixels) {
 
 TEST_F(PictureSetTest, HasTheCalibrationOfEachCameraThatHasOne) {
   PictureSet set(folder_ / "set", false);
-  set.add(notesOf(&camera_, "front/camera/image"), image_, {}, {});
-  set.add(notesOf(nullptr, "rear/camera/image"), image_, {}, {});
+  set.add(0, notesOf(&camera_, "front/camera/image"), image_, {}, {});
+  set.add(1, notesOf(nullptr, "rear/camera/image"), image_, {}, {});
   EXPECT_EQ(readBytes(folder_ / "set/front-camera-image.toml"), toToml(camera_));
   EXPECT_FALSE(fs::exists(folder_ / "set/rear-camera-image.toml"));
 }
 
 TEST_F(PictureSetTest, GreyPicturesStayGrey) {
   PictureSet set(folder_ / "set", false);
-  set.add(notesOf(nullptr, "a/b/c"), {{3, 1}, PixelFormat::kGrey, pixels_.data()}, {}, {});
+  set.add(0, notesOf(nullptr, "a/b/c"), {{3, 1}, PixelFormat::kGrey, pixels_.data()}, {}, {});
   const DecodedPng picture = pictureIn(folder_ / "set/images/000000.png");
   ASSERT_EQ(picture.width, 3);
   EXPECT_TRUE(picture.is(2, 0, {3, 3, 3}));
@@ -98,7 +98,7 @@ TEST_F(PictureSetTest, GreyPicturesStayGrey) {
 TEST_F(PictureSetTest, MasksHaveAColourForEachClass) {
   PictureSet set(folder_ / "set", false);
   const std::vector<std::uint32_t> things = {0x100 + 5, 2, 0x300 + 6, 8};
-  set.add(notesOf(&camera_, "a/b/c"), image_, things, std::vector<float>(4, 1.0F));
+  set.add(0, notesOf(&camera_, "a/b/c"), image_, things, std::vector<float>(4, 1.0F));
   const DecodedPng mask = pictureIn(folder_ / "set/segmentations/000000.png");
   EXPECT_TRUE(mask.is(0, 0, {255, 120, 0})) << "a ball";
   EXPECT_TRUE(mask.is(1, 0, {255, 255, 255})) << "a line";
@@ -109,9 +109,9 @@ TEST_F(PictureSetTest, MasksHaveAColourForEachClass) {
 TEST_F(PictureSetTest, DepthsAreMillimetresAndZeroBeyond16Bits) {
   PictureSet set(folder_ / "set", false);
   const std::vector<std::uint32_t> things(4, 0);
-  set.add(notesOf(&camera_, "a/b/c"), image_, things,
+  set.add(0, notesOf(&camera_, "a/b/c"), image_, things,
           std::vector<float>{1.2344F, 0.0F, 65.53F, 70});
-  set.add(notesOf(&camera_, "a/b/c"), image_, things,
+  set.add(1, notesOf(&camera_, "a/b/c"), image_, things,
           std::vector<float>{0.0006F, std::numeric_limits<float>::infinity(), std::nanf(""), 2});
   EXPECT_EQ(depthsIn(folder_ / "set/depth/000000.png"),
             (std::vector<std::uint16_t>{1234, 0, 65530, 0}));
@@ -237,7 +237,8 @@ TEST(Annotations, YamlHasCornersPosesAndTheCamera) {
   Annotation robot;
   robot.type = "robot";
   notes.annotations = {post, ball, robot};
-  const YAML::Node picture = YAML::Load(annotationsYaml({&notes, 1}))["images"]["000007.png"];
+  const YAML::Node picture =
+      YAML::Load(annotationsYaml(std::array{annotationYaml(notes)}))["images"]["000007.png"];
   const YAML::Node all = picture["annotations"];
   ASSERT_EQ(all.size(), 3u);
   using Corners = std::vector<std::vector<int>>;
@@ -266,7 +267,7 @@ TEST(Annotations, YamlLeavesOutWhatIsNotKnown) {
   notes.file = "a.png";
   notes.size = {1, 1};
   const YAML::Node metadata =
-      YAML::Load(annotationsYaml({&notes, 1}))["images"]["a.png"]["metadata"];
+      YAML::Load(annotationsYaml(std::array{annotationYaml(notes)}))["images"]["a.png"]["metadata"];
   for (const char* key : {"fov", "location", "camera_pose"}) EXPECT_FALSE(metadata[key]) << key;
 }
 

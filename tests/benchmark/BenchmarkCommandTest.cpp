@@ -29,10 +29,10 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   ASSERT_EQ(whole.exitCode, 0) << whole.err;
   EXPECT_NE(whole.out.find("5 episodes a pair, seed 9"), std::string::npos);
   for (const std::string part : {"1", "2"})
-    ASSERT_EQ(ortung(with(play, {"--shard", part + "/2", "--json", file(part + ".json")})).exitCode,
+    ASSERT_EQ(ortung(with(play, {"--shard", part + "/2", "--json", file(part + ".part")})).exitCode,
               0);
   const Outcome merged =
-      ortung({"benchmark", "merge", file("2.json"), file("1.json"), "--json", file("merged.json")});
+      ortung({"merge", file("2.part"), file("1.part"), "--out", file("merged.json")});
   ASSERT_EQ(merged.exitCode, 0) << merged.err;
   EXPECT_EQ(merged.out, whole.out);
   EXPECT_EQ(readBytes(file("merged.json")), readBytes(file("all.json")));
@@ -49,7 +49,7 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   // Only its own results are overwritten.
   writeBytes(file("text.txt"), "mine");
   expectError(with(play, {"--json", file("text.txt")}), 1, "text.txt");
-  expectError({"benchmark", "merge", file("1.json")}, 1, "expected all 2");
+  expectError({"merge", file("1.part"), "--out", file("half.json")}, 3, "missing: 2/2");
 }
 
 TEST(BenchmarkCommand, ComparesWaysToSeeAndWritesAPage) {
@@ -75,7 +75,8 @@ TEST(BenchmarkCommand, BadOptionsAreRefused) {
   expectError(play({"--strikers", "striker:kind=x"}), 1, "kind is 'x'");
   expectError(play({"--keepers", "still,still"}), 2, "twice");
   expectError(play({"--shard", "3"}), 2, "expected I/N");
-  expectError(play({"--shard", "2/1"}), 2, "the shard is 2/1");
+  expectError(play({"--shard", "1/2"}), 2, "expected its name: --json");
+  expectError(play({"--shard", "2/1"}), 2, "expected I from 1 to N");
   expectError(play({"--shard", "1/3"}), 2, "the shard is 1/3");
   expectError(play({"--threads", "0"}), 2, "--threads");
   expectError(play({"--sees", "little"}), 2, "see `ortung benchmark goalkeeper --help`");

@@ -12,7 +12,7 @@ package_of() {
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
-    iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; GL/osmesa.h) echo libosmesa6-dev ;; EGL/egl.h) echo libegl-dev ;; lz4frame.h) echo liblz4-dev ;; ccache) echo ccache ;;
+    iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; GL/osmesa.h) echo libosmesa6-dev ;; EGL/egl.h) echo libegl-dev ;; lz4frame.h) echo liblz4-dev ;; xxhash.h) echo libxxhash-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
     Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;;
     PIL) echo python3-pil ;; numpy) echo python3-numpy ;; dpkg-architecture | dpkg-shlibdeps) echo dpkg-dev ;; debootstrap | lintian) echo "$1" ;;

@@ -25,6 +25,7 @@ FOREIGN = {
     r"toml\+\+/": r"^container/robot/src/",
     r"nlohmann/": r"^(app|container/robot/src|board/refbox/src|play/benchmark/src|realsensors/foxglove/src)/",
     r"zstd\.h": r"^(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp$",
+    r"xxhash\.h": r"^app/shards/ContentDigest\.cpp$",
     r"lz4frame\.h": r"^realsensors/ros2/src/Compression\.cpp$",
     r"boost/(asio|beast|optional)": r"^board/(server/src/(AddressKey\.|Arrival\.|Entrance\.|Session\.|MessageBoard\.cpp)"
     r"|refbox/src/RefBoxClient\.cpp|web/src/)",

@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <map>
 #include <mutex>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -15,7 +15,7 @@ using Identity = std::pair<dev_t, ino_t>;
 
 struct Inputs {
   std::mutex mutex;
-  std::set<Identity> files;
+  std::map<Identity, std::filesystem::path> files;  ///< first name of each file
 };
 
 /// Files that any part of the process has read: before a file is replaced, it is looked up here.
@@ -24,10 +24,10 @@ Inputs& inputs() {
   return instance;
 }
 
-void note(const struct stat& status) {
+void note(const std::filesystem::path& file, const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return;
   const std::lock_guard lock(inputs().mutex);
-  inputs().files.emplace(status.st_dev, status.st_ino);
+  inputs().files.try_emplace({status.st_dev, status.st_ino}, file);
 }
 
 }  // namespace
@@ -49,14 +49,14 @@ std::ifstream openInput(const std::filesystem::path& file, std::string& why) {
   if (!in) {
     why = cantBeRead(error);
   } else if (isThere) {
-    note(status);
+    note(file, status);
   }
   return in;
 }
 
 void noteInput(const std::filesystem::path& file) {
   struct stat status{};
-  if (::stat(file.c_str(), &status) == 0) note(status);
+  if (::stat(file.c_str(), &status) == 0) note(file, status);
 }
 
 bool isInput(const std::filesystem::path& file) {
@@ -64,6 +64,13 @@ bool isInput(const std::filesystem::path& file) {
   if (::stat(file.c_str(), &status) != 0) return false;
   const std::lock_guard lock(inputs().mutex);
   return inputs().files.contains({status.st_dev, status.st_ino});
+}
+
+std::vector<std::filesystem::path> allInputs() {
+  std::vector<std::filesystem::path> names;
+  const std::lock_guard lock(inputs().mutex);
+  for (const auto& [identity, name] : inputs().files) names.push_back(name);
+  return names;
 }
 
 }  // namespace ortung

@@ -1,8 +1,6 @@
 // The model learner (paper, section 5.2): moves its robot over all poses of the field, where all
 // features that localize learn their readings; writes the tables, and ends.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -19,7 +17,6 @@
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/robot/TableInfo.hpp"
-#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Learner.hpp"
 #include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/RobotShape.hpp"
@@ -46,18 +43,6 @@ struct Settings {
   }
 };
 
-/// Reads a point "x;y". @throws std::invalid_argument
-std::array<double, 2> pointIn(const std::string& text) {
-  std::array<double, 2> point{};
-  const char* const end = text.data() + text.size();
-  const auto x = std::from_chars(text.data(), end, point[0]);
-  const bool isParted = x.ec == std::errc() && x.ptr != end && *x.ptr == ';';
-  const auto y = isParted ? std::from_chars(x.ptr + 1, end, point[1]) : x;
-  if (!isParted || y.ec != std::errc() || y.ptr != end)
-    throw std::invalid_argument("area is '" + text + "', expected auto, all or x;y in metres");
-  return point;
-}
-
 class LearnerPlayer : public Player {
  public:
   explicit LearnerPlayer(const Parameters& p) : settings_(p) {}
@@ -80,8 +65,7 @@ class LearnerPlayer : public Player {
       devices_.push_back(fillContainer(containers_.back(), robot_, factory_));
     }
     learner_ = std::make_unique<Learner>(*world_, region_, devices_.front(),
-                                         std::span(devices_).subspan(1), factory_,
-                                         LearnOptions{settings_.cell, settings_.headingStep});
+                                         std::span(devices_).subspan(1), factory_, options());
     for (const Learner::Need& need : learner_->needs())
       seat.say("needs " + std::to_string(need.headings) + " headings for " + toText(need.feature));
   }
@@ -117,6 +101,8 @@ class LearnerPlayer : public Player {
     std::exception_ptr failure;
   };
 
+  LearnOptions options() const { return {settings_.cell, settings_.headingStep}; }
+
   void learn(const std::stop_token& stop) {
     State state;
     while (!stop.stop_requested() && !state.isOver) {
@@ -135,15 +121,7 @@ class LearnerPlayer : public Player {
   }
 
   FieldRegion region(PlayerSeat& seat) const {
-    const RobotSize size = sizeOf(robot_);
-    if (settings_.area == "all") {
-      FieldRegion all = world_->region(settings_.cell, size);
-      all.check();
-      return all;
-    }
-    std::optional<std::array<double, 2>> inside;
-    if (settings_.area != "auto") inside = pointIn(settings_.area);
-    LearnArea area = learnArea(*world_, settings_.cell, size, inside);
+    LearnArea area = learnArea(*world_, settings_.cell, sizeOf(robot_), settings_.area);
     if (area.leftOut > 0.0) {
       char text[32];
       std::snprintf(text, sizeof text, "leaves out %.1f m^2", area.leftOut);
@@ -172,14 +150,7 @@ class LearnerPlayer : public Player {
   }
 
   void save(PlayerSeat& seat) {
-    TableInfo info;
-    info.world = world_->name();
-    info.worldFingerprint = world_->fingerprint();
-    info.robot = robot_.about.textOr("name", robot_.name);
-    info.headingStep = settings_.headingStep;
-    info.region = region_;
-    info.field = fieldModelOf(*world_);
-    info.robotToml = readTomlText(robot_.about.where());
+    const TableInfo info = tableInfoOf(*world_, robot_, region_, options());
     const std::uintmax_t bytes = writeTables(settings_.out, containers_.front(), info);
     const auto count = [](const std::vector<std::uint8_t>& mask) {
       return std::to_string(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));

@@ -1,7 +1,9 @@
+#include <charconv>
 #include <stdexcept>
 #include <string>
 
 #include "FloorParts.hpp"
+#include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Learner.hpp"
 
 namespace ortung {
@@ -17,6 +19,18 @@ std::size_t partAround(const std::array<double, 2>& point, const FieldParts& par
   return *found;
 }
 
+/// Reads a point "x;y". @throws std::invalid_argument
+std::array<double, 2> pointIn(const std::string& text) {
+  std::array<double, 2> point{};
+  const char* const end = text.data() + text.size();
+  const auto x = std::from_chars(text.data(), end, point[0]);
+  const bool isParted = x.ec == std::errc() && x.ptr != end && *x.ptr == ';';
+  const auto y = isParted ? std::from_chars(x.ptr + 1, end, point[1]) : x;
+  if (!isParted || y.ec != std::errc() || y.ptr != end)
+    throw std::invalid_argument("area is '" + text + "', expected auto, all or x;y in metres");
+  return point;
+}
+
 }  // namespace
 
 LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
@@ -29,6 +43,31 @@ LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
   for (std::size_t i = 0; i < whole.standable.size(); ++i)
     area.leftOut += whole.standable[i] != area.region.standable[i] ? cell * cell : 0.0;
   return area;
+}
+
+LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
+                    const std::string& part) {
+  if (part == "all") {
+    LearnArea all{world.region(cell, robot), 0.0};
+    all.region.check();
+    return all;
+  }
+  std::optional<std::array<double, 2>> inside;
+  if (part != "auto") inside = pointIn(part);
+  return learnArea(world, cell, robot, inside);
+}
+
+TableInfo tableInfoOf(const SimWorld& world, const RobotConfig& robot, const FieldRegion& region,
+                      const LearnOptions& options) {
+  TableInfo info;
+  info.world = world.name();
+  info.worldFingerprint = world.fingerprint();
+  info.robot = robot.about.textOr("name", robot.name);
+  info.headingStep = options.headingStep;
+  info.region = region;
+  info.field = fieldModelOf(world);
+  info.robotToml = readTomlText(robot.about.where());
+  return info;
 }
 
 }  // namespace ortung

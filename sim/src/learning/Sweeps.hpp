@@ -33,6 +33,8 @@ struct Sweep {
   std::size_t headings = 0;
   std::vector<std::size_t> cells;
   std::vector<SweepGroup> groups;
+  /// Returns the number of readings at each cell, of a group in a heading each.
+  std::size_t readingsACell() const { return headings * groups.size(); }
 };
 
 /// Adds a feature that has begun to learn to the sweep with its spacings. @returns the number of

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "ortung/base/Export.hpp"
 
@@ -23,5 +24,9 @@ ORTUNG_API void noteInput(const std::filesystem::path& file);
 /// Returns whether this process has read that very file, by whatever name or link. Devices and
 /// pipes do not count.
 ORTUNG_API bool isInput(const std::filesystem::path& file);
+
+/// Returns all files that this process has read by now, in no order, by the names with which it
+/// read them first. Devices and pipes do not count.
+ORTUNG_API std::vector<std::filesystem::path> allInputs();
 
 }  // namespace ortung

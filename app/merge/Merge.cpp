@@ -1,0 +1,82 @@
+#include "Merge.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "Console.hpp"
+#include "EvalParts.hpp"
+#include "GoalkeeperParts.hpp"
+#include "LearnParts.hpp"
+#include "Outputs.hpp"
+#include "PartSet.hpp"
+#include "ortung/benchmark/MatrixPage.hpp"
+#ifdef ORTUNG_HAS_PICTURES
+#include "PictureParts.hpp"
+#endif
+
+namespace ortung::app {
+namespace {
+
+/// Declares the output of tables, figures, ..., and returns its name.
+const std::filesystem::path& outOf(const MergeArguments& arguments, Outputs& outputs,
+                                   OutputKind kind) {
+  outputs.writes("--out", arguments.out, kind);
+  return outputs.ready(arguments.out);
+}
+
+void mergeRuns(const PartSet& parts, const MergeArguments& arguments, Outputs& outputs) {
+  const std::filesystem::path& out = outOf(arguments, outputs, OutputKind::kFigures);
+  const std::vector<KeptRun> runs = mergeEvaluated(parts);
+  // As `ortung eval` does: a single run that is no case has no summary.
+  const bool isOne = runs.size() == 1 && runs.front().figures.find("\"case\"") == std::string::npos;
+  outputs.write(out, isOne ? runs.front().figures : toJson(runs));
+  fmt::print("{}", toText(runs));
+}
+
+void mergeBenchmark(const PartSet& parts, const MergeArguments& arguments, Outputs& outputs) {
+  const std::filesystem::path& out = outOf(arguments, outputs, OutputKind::kBenchmark);
+  outputs.writes("--html", arguments.html, OutputKind::kPage);
+  const GoalMatrix matrix = mergeMatrices(parts);
+  outputs.write(out, toJson(matrix, ORTUNG_VERSION));
+  if (!arguments.html.empty()) outputs.write(arguments.html, toHtml(matrix, ORTUNG_VERSION));
+  fmt::print("{}", toText(matrix));
+}
+
+void merge(const MergeArguments& arguments) {
+  Outputs outputs(arguments.force);
+  for (const auto& part : arguments.parts) outputs.reads(part);
+  const PartSet parts(arguments.parts);
+  const std::string& kind = parts.head().kind;
+  if (!arguments.html.empty() && kind != kGoalkeeperParts)
+    throw UsageError("--html is for parts of `ortung benchmark goalkeeper`; these are of '" +
+                     printable(kind) + "'");
+  if (kind == kLearnParts)
+    return mergeLearned(parts, outOf(arguments, outputs, OutputKind::kTables), arguments.progress);
+  if (kind == kEvalParts) return mergeRuns(parts, arguments, outputs);
+  if (kind == kGoalkeeperParts) return mergeBenchmark(parts, arguments, outputs);
+#ifdef ORTUNG_HAS_PICTURES
+  if (kind == kPictureParts) {
+    fmt::print("{}: {} pictures\n", arguments.out.string(),
+               mergePictures(parts, arguments.out, arguments.force));
+    return;
+  }
+#endif
+  throw PartError({"the parts are of '" + kind + "', which this program can't join"});
+}
+
+}  // namespace
+
+int runMerge(const MergeArguments& arguments) {
+  try {
+    merge(arguments);
+    return 0;
+  } catch (const PartError& error) {
+    for (const std::string& reason : error.reasons()) fail(printable(reason));
+  } catch (const TableError& error) {
+    fail(printable(error.what()));
+  }
+  return kBadParts;
+}
+
+}  // namespace ortung::app

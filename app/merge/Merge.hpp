@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace ortung::app {
+
+/// Arguments of `ortung merge`.
+struct MergeArguments {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path out;
+  std::filesystem::path html;  ///< page of a benchmark; "": none
+  bool force = false;          ///< whether to overwrite files of other kinds
+  bool progress = false;
+};
+/// Exit code if the parts can't be joined.
+inline constexpr int kBadParts = 3;
+int runMerge(const MergeArguments& arguments);
+
+}  // namespace ortung::app
