@@ -72,6 +72,10 @@ Signature signatureOf(OutputKind kind) {
       return {"a file of MRPT", "\x1F\x8B", ""};
     case OutputKind::kMcap:
       return {"an MCAP file", "\x89MCAP0\r\n", ""};
+    case OutputKind::kSweepCsv:
+      return {"a table of `ortung sweep`", "", ",tasks,done,"};
+    case OutputKind::kSweepPage:
+      return {"a page of `ortung sweep`", "<!doctype html>", "<title>Sweep "};
     case OutputKind::kSettings:
       break;
   }

@@ -14,6 +14,7 @@
 #include "Numbers.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "RobotSettings.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
@@ -137,6 +138,7 @@ int runLearn(const LearnArguments& arguments) {
   outputs.reads(arguments.robot);
   const bool isPart = !arguments.shard.empty();
   outputs.writes("--out", arguments.out, isPart ? OutputKind::kPart : OutputKind::kTables);
+  applySettings(arguments.robot, arguments.settings);
   readRobot(arguments.robot);
   if (isPart) {
     learnShard(arguments, readShard(arguments.shard), outputs.ready(arguments.out));

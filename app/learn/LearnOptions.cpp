@@ -1,6 +1,7 @@
 #include "CommandModule.hpp"
 #include "Learn.hpp"
 #include "OptionBuilder.hpp"
+#include "RobotSettings.hpp"
 
 namespace ortung::app {
 namespace {
@@ -29,6 +30,7 @@ void addLearn(Builder& build) {
   build.option("--threads", a->threads, "Threads; what is learned does not depend on it")
       .within(1, 256)
       .showsDefault();
+  addSettings(build, a->settings);
   build.shard(a->shard, a->job);
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);

@@ -11,6 +11,7 @@
 
 #include "Interrupt.hpp"
 #include "Progress.hpp"
+#include "RobotSettings.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/Learner.hpp"
@@ -33,7 +34,7 @@ class Desk {
         world_(readWorld(arguments.world)),
         robot_(readRobot(arguments.robot)),
         options_{arguments.cell, kTurn / std::round(360.0 / arguments.headingStepDeg)},
-        region_(learnArea(*world_, arguments.cell, sizeOf(robot_), areaOf(arguments)).region) {
+        region_(learnAreaOf(*world_, arguments.cell, sizeOf(robot_), areaOf(arguments)).region) {
     // A thread that generates needs a robot of its own, beside the one that learns.
     const std::size_t rigs = arguments.threads > 1 ? arguments.threads + 1 : 1;
     for (std::size_t i = 0; i < rigs; ++i) {
@@ -50,7 +51,8 @@ class Desk {
                 {"robot", arguments_.robot.string()},
                 {"cell_m", arguments_.cell},
                 {"heading_step_deg", arguments_.headingStepDeg},
-                {"area", arguments_.area}}
+                {"area", arguments_.area},
+                {"set", arguments_.settings}}
         .dump(-1, ' ', true, Json::error_handler_t::replace);
   }
   std::uintmax_t write(const std::filesystem::path& out) const {
@@ -102,6 +104,7 @@ LearnArguments argumentsOf(const PartSet& parts) {
     arguments.cell = needs.at("cell_m");
     arguments.headingStepDeg = needs.at("heading_step_deg");
     arguments.area = needs.at("area");
+    arguments.settings = needs.at("set").get<std::vector<std::string>>();
   } catch (const Json::exception& error) {
     throw PartError({std::string("the parts do not say how they were made: ") + error.what()});
   }
@@ -133,6 +136,7 @@ void learnShard(const LearnArguments& arguments, const Shard& shard,
 void mergeLearned(const PartSet& parts, const std::filesystem::path& out, bool progress) {
   const LearnArguments arguments = argumentsOf(parts);
   parts.requireInputs();
+  applySettings(arguments.robot, arguments.settings);
   Desk desk(arguments);
   Progress bar("learning", progress);
   try {

@@ -21,6 +21,7 @@
 #include "Outputs.hpp"
 #include "Progress.hpp"
 #include "Report.hpp"
+#include "RobotSettings.hpp"
 #include "RunResult.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/base/Angles.hpp"
@@ -152,11 +153,11 @@ int viewAgain(const EvalArguments& arguments) {
 
 void refuseToView(const EvalArguments& arguments, std::size_t jobs) {
   if (jobs == 1 && arguments.kidnaps + arguments.wakeUps == 0 && !arguments.teleport &&
-      arguments.faults.empty())
+      arguments.faults.empty() && arguments.localization.settings.empty())
     return;
   throw UsageError(
       "--view shows one run of one source as it is: it does not go with further sources or runs, "
-      "faults, kidnaps and wake-ups");
+      "faults, settings, kidnaps and wake-ups");
 }
 
 /// Makes the runs of a shard only, and writes them as a part.
@@ -188,6 +189,7 @@ int runShard(const EvalSettings& settings, std::vector<EvalJob> jobs, const Outp
 int runEval(const EvalArguments& arguments) {
   if (arguments.localization.besideGrid && arguments.localization.filter == "grid")
     throw UsageError("--against-grid compares MCL with the grid filter, and --filter is grid");
+  applySettings(arguments.localization.robot, arguments.localization.settings);
   const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
   std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());

@@ -2,6 +2,7 @@
 #include "Eval.hpp"
 #include "LocalizationOptions.hpp"
 #include "OptionBuilder.hpp"
+#include "RobotSettings.hpp"
 #include "ortung/study/Fault.hpp"
 
 namespace ortung::app {
@@ -21,6 +22,7 @@ void addEval(Builder& build) {
   const std::size_t first = build.options();
   addLocalization(build, a->localization, Localizes::kAlways);
   build.keepGiven(first, a->localizationWords);
+  addSettings(build, a->localization.settings);
   build.flag("--force", a->localization.force, kForce);
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");

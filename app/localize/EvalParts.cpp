@@ -99,4 +99,9 @@ std::vector<KeptRun> mergeEvaluated(const PartSet& parts) {
   return runs;
 }
 
+std::string figuresOf(const std::vector<KeptRun>& runs) {
+  const bool isOne = runs.size() == 1 && runs.front().figures.find("\"case\"") == std::string::npos;
+  return isOne ? runs.front().figures : toJson(runs);
+}
+
 }  // namespace ortung::app

@@ -23,4 +23,7 @@ void write(const EvalPart& part, PartHead head, const std::filesystem::path& fil
 /// Returns the runs of all parts in the order in which one process makes them. @throws PartError
 std::vector<KeptRun> mergeEvaluated(const PartSet& parts);
 
+/// Returns the JSON that `ortung eval` writes of runs: a single one that is no case has no summary.
+std::string figuresOf(const std::vector<KeptRun>& runs);
+
 }  // namespace ortung::app

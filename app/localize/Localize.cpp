@@ -15,6 +15,7 @@
 #include "Outputs.hpp"
 #include "Progress.hpp"
 #include "Rescue.hpp"
+#include "RobotSettings.hpp"
 #include "SourceArguments.hpp"
 
 namespace ortung::app {
@@ -196,6 +197,7 @@ class LocalizeRun {
 int runLocalize(const LocalizeArguments& arguments) {
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
+  applySettings(arguments.localization.robot, arguments.localization.settings);
   outputs.writes("--out", arguments.out, kindOf(formatOf(arguments)));
   outputs.writes("--truth", arguments.truth, OutputKind::kPosesTum);
   outputs.writes("--belief", arguments.belief, OutputKind::kBelief);

@@ -2,6 +2,7 @@
 #include "LocalizationOptions.hpp"
 #include "Localize.hpp"
 #include "OptionBuilder.hpp"
+#include "RobotSettings.hpp"
 
 namespace ortung::app {
 namespace {
@@ -14,6 +15,7 @@ void addLocalize(Builder& build) {
                                        runLocalize);
   build.option("--source", a->localization.source, kSource).required();
   addLocalization(build, a->localization, Localizes::kAlways);
+  addSettings(build, a->localization.settings);
   build.flag("--force", a->localization.force, kForce);
   build.option("--out", a->out, "File to write; default: stdout");
   build

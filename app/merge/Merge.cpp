@@ -28,9 +28,7 @@ const std::filesystem::path& outOf(const MergeArguments& arguments, Outputs& out
 void mergeRuns(const PartSet& parts, const MergeArguments& arguments, Outputs& outputs) {
   const std::filesystem::path& out = outOf(arguments, outputs, OutputKind::kFigures);
   const std::vector<KeptRun> runs = mergeEvaluated(parts);
-  // As `ortung eval` does: a single run that is no case has no summary.
-  const bool isOne = runs.size() == 1 && runs.front().figures.find("\"case\"") == std::string::npos;
-  outputs.write(out, isOne ? runs.front().figures : toJson(runs));
+  outputs.write(out, figuresOf(runs));
   fmt::print("{}", toText(runs));
 }
 

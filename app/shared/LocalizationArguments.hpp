@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ortung::app {
 
@@ -20,7 +21,8 @@ struct LocalizationArguments {
   std::string motion;          ///< file, or "turn_per_turn,turn_per_m,way_per_m,way_per_turn"
   std::string filter = "mcl";  ///< kind of filter: "mcl" or "grid"
   std::string grid = "0.1,5";  ///< grid filter's cell [m] and step of headings [degrees]
-  bool besideGrid = false;     ///< whether to compare MCL with the grid filter
+  std::vector<std::string> settings;  ///< other values for keys of the robot file, "KEY=VALUE"
+  bool besideGrid = false;            ///< whether to compare MCL with the grid filter
   bool anyWorld = false;
   bool publish = false;  ///< whether to put estimates into the container
   bool force = false;    ///< whether to overwrite files of other kinds

@@ -62,7 +62,7 @@ TEST(Outputs, OfAnotherKindAreReplacedByForceOnly) {
       "# Learned by `ortung learn-motion` from",
       "{\n \"commands\": 5, \"format\": \"ortung motion network 1\"",
   };
-  constexpr int kKinds = 13;
+  constexpr int kKinds = 14;
   for (int content = 0; content < kKinds; ++content) {
     for (int kind = 0; kind <= kKinds; ++kind) {  // the last one is never replaced unasked
       writeBytes(folder / "a", samples[content]);

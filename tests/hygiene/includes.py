@@ -22,7 +22,7 @@ FOREIGN = {
     r"CLI/": r"^app/(module|program)/.*\.cpp$",
     r"fmt/|spdlog/|stb/|dlib/": r"^app/",
     r"pybind11/": r"^python/",
-    r"toml\+\+/": r"^container/robot/src/",
+    r"toml\+\+/": r"^(container/robot/src|app/sweep)/",
     r"nlohmann/": r"^(app|container/robot/src|board/refbox/src|play/benchmark/src|realsensors/foxglove/src)/",
     r"zstd\.h": r"^(container/records/src/Zstd|realsensors/ros2/src/Compression)\.cpp$",
     r"xxhash\.h": r"^app/shards/ContentDigest\.cpp$",

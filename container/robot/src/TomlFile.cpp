@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "TomlChanges.hpp"
 #include "TomlLibrary.hpp"
 #include "ortung/base/InputFile.hpp"
 
@@ -144,6 +145,10 @@ toml::table parse(std::string_view text, const std::string& name, std::size_t ma
 }  // namespace
 
 std::string readTomlText(const std::filesystem::path& file) {
+  return changedToml(readUnchanged(file), file);
+}
+
+std::string readUnchanged(const std::filesystem::path& file) {
   std::string why;
   std::ifstream in = openInput(file, why);
   if (!in) throw ConfigError(file.string() + ": " + why);

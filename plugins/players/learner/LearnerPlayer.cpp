@@ -121,7 +121,7 @@ class LearnerPlayer : public Player {
   }
 
   FieldRegion region(PlayerSeat& seat) const {
-    LearnArea area = learnArea(*world_, settings_.cell, sizeOf(robot_), settings_.area);
+    LearnArea area = learnAreaOf(*world_, settings_.cell, sizeOf(robot_), settings_.area);
     if (area.leftOut > 0.0) {
       char text[32];
       std::snprintf(text, sizeof text, "leaves out %.1f m^2", area.leftOut);

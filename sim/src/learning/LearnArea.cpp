@@ -45,8 +45,8 @@ LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
   return area;
 }
 
-LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
-                    const std::string& part) {
+LearnArea learnAreaOf(const SimWorld& world, double cell, const RobotSize& robot,
+                      const std::string& part) {
   if (part == "all") {
     LearnArea all{world.region(cell, robot), 0.0};
     all.region.check();

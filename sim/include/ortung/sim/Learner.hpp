@@ -41,8 +41,8 @@ ORTUNG_API LearnArea learnArea(const SimWorld& world, double cell, const RobotSi
                                const std::optional<std::array<double, 2>>& inside = {});
 /// The same for a part given as text: "auto", "all" (nothing is left out), or a point "x;y" [m].
 /// @throws std::invalid_argument, also for another text
-ORTUNG_API LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
-                               const std::string& part);
+ORTUNG_API LearnArea learnAreaOf(const SimWorld& world, double cell, const RobotSize& robot,
+                                 const std::string& part);
 /// Returns how tables describe themselves that a robot of a file has learned in a world.
 ORTUNG_API TableInfo tableInfoOf(const SimWorld& world, const RobotConfig& robot,
                                  const FieldRegion& region, const LearnOptions& options);

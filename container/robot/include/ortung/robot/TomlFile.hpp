@@ -21,6 +21,16 @@ ORTUNG_API Parameters readToml(const std::filesystem::path& file);
 /// Returns the text of a TOML file, unparsed. @throws ConfigError if it is missing or too large
 ORTUNG_API std::string readTomlText(const std::filesystem::path& file);
 
+/// Changes a value of a TOML file for this process: all that read the file from now on get the
+/// changed text, as if somebody had edited it. The file itself stays as it is. Thread-safe.
+/// @param key dotted path, as "mcl.particles"; in a list of tables, as [[sensor]], the second word
+///   is their number, from 1, or the value of their key `plugin`, `model` or `type`:
+///   "sensor.lrf.range_sigma_m" changes all of that plugin
+/// @param value TOML, as "500" or "true"; what is no TOML is a text
+/// @throws ConfigError naming the key if the file can't be read, or has no such table or list
+ORTUNG_API void changeToml(const std::filesystem::path& file, const std::string& key,
+                           const std::string& value);
+
 /// Reads TOML text. @param name what errors call it @throws ConfigError
 ORTUNG_API Parameters parseToml(std::string_view text, const std::string& name,
                                 std::size_t maxBytes = kMaxConfigBytes);

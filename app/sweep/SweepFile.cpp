@@ -1,0 +1,224 @@
+#include "SweepFile.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <sstream>
+
+#include "ContentDigest.hpp"
+#include "ortung/base/Parameters.hpp"
+#include "ortung/robot/TomlFile.hpp"
+
+namespace ortung::app {
+namespace {
+
+constexpr std::size_t kMostTasks = 10'000'000;
+constexpr std::int64_t kLongestRange = 1'000'000;
+
+[[noreturn]] void refuse(const std::string& file, const toml::node& node, const std::string& what) {
+  throw ConfigError(fmt::format("{}:{}: {}", file, node.source().begin.line, what));
+}
+
+/// Returns a number or a text as a word.
+std::string wordOf(const toml::node& node, const std::string& file) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (node.is_integer() || node.is_floating_point() || node.is_boolean()) {
+    std::ostringstream out;
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_value<decltype(value)>) out << value.get();
+    });
+    return node.is_boolean() ? (node.as_boolean()->get() ? "true" : "false") : out.str();
+  }
+  refuse(file, node, "expected a number or a text");
+}
+
+std::vector<std::string> wordsOf(const toml::array& list, const std::string& file) {
+  std::vector<std::string> words;
+  for (const toml::node& node : list) words.push_back(wordOf(node, file));
+  return words;
+}
+
+/// Reads "1..20". @returns whether it is a range
+bool readRange(const std::string& text, std::int64_t& first, std::int64_t& last) {
+  const std::size_t dots = text.find("..");
+  if (dots == text.npos) return false;
+  const char* const begin = text.data();
+  const auto low = std::from_chars(begin, begin + dots, first);
+  const auto high = std::from_chars(begin + dots + 2, begin + text.size(), last);
+  return low.ec == std::errc() && low.ptr == begin + dots && high.ec == std::errc() &&
+         high.ptr == begin + text.size() && first <= last && last - first < kLongestRange;
+}
+
+}  // namespace
+
+SweepFile::SweepFile(const std::filesystem::path& file)
+    : SweepFile(readTomlText(file), file.string(), std::filesystem::absolute(file).parent_path()) {}
+
+SweepFile::SweepFile(std::string text, const std::string& name, std::filesystem::path folder)
+    : text_(std::move(text)), folder_(std::move(folder)) {
+  parseToml(text_, name);  // within its bounds, and with its messages
+  read(name);
+  checkUse(name);
+  std::size_t tasks = 1;
+  for (const auto& values : values_) {
+    tasks *= values.size();
+    if (tasks > kMostTasks)
+      throw ConfigError(fmt::format("{}: has more than {} tasks", name, kMostTasks));
+  }
+}
+
+void SweepFile::read(const std::string& name) {
+  const toml::table all = toml::parse(text_);
+  for (const auto& [key, node] : all)
+    if (key != "command" && key != "vary")
+      refuse(name, node, fmt::format("'{}' is not known, expected command and [vary]", key.str()));
+  const toml::array* command = all["command"].as_array();
+  if (command == nullptr) throw ConfigError(name + ": has no list of words named command");
+  patterns_ = wordsOf(*command, name);
+  const bool isMatrix =
+      patterns_.size() > 1 && patterns_[0] == "benchmark" && patterns_[1] == "goalkeeper";
+  if (!isMatrix && (patterns_.empty() || patterns_[0] != "eval"))
+    refuse(name, *command, "expected a command with figures: eval, or benchmark goalkeeper");
+  command_ = isMatrix ? "benchmark goalkeeper" : "eval";
+  for (const char* own : {"--shard", "--json", "--report", "--html", "--record", "--view"})
+    if (std::find(patterns_.begin(), patterns_.end(), own) != patterns_.end())
+      refuse(name, *command, fmt::format("{} is the sweep's own", own));
+  const toml::table* vary = all["vary"].as_table();
+  if (vary == nullptr) return;
+  // The library sorts by name; people order by meaning.
+  std::vector<std::pair<toml::source_index, std::string>> order;
+  for (const auto& [key, node] : *vary)
+    order.emplace_back(node.source().begin.line, std::string(key.str()));
+  std::sort(order.begin(), order.end());
+  for (const auto& [line, key] : order) {
+    const toml::node& node = *vary->get(key);
+    std::vector<Value> values;
+    const auto addPlain = [&](const std::string& word) {
+      values.push_back({word, false, {}, {{"", word}}});
+    };
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    if (node.is_string() && readRange(node.as_string()->get(), first, last)) {
+      for (std::int64_t i = first; i <= last; ++i) addPlain(std::to_string(i));
+    } else if (const toml::array* list = node.as_array()) {
+      for (const toml::node& one : *list) {
+        if (const toml::array* inner = one.as_array()) {
+          Value value{"", true, wordsOf(*inner, name), {}};
+          for (const std::string& word : value.words)
+            value.name += (value.name.empty() ? "" : " ") + word;
+          if (value.words.empty()) value.name = "none";
+          values.push_back(std::move(value));
+        } else if (const toml::table* table = one.as_table()) {
+          Value value;
+          for (const auto& [field, content] : *table)
+            value.fields[std::string(field.str())] = wordOf(content, name);
+          value.name = value.fields["name"];
+          if (value.name.empty()) refuse(name, one, key + ": a table needs a name");
+          value.fields[""] = value.name;
+          values.push_back(std::move(value));
+        } else {
+          addPlain(wordOf(one, name));
+        }
+      }
+    }
+    if (values.empty())
+      refuse(name, node, key + ": expected a list of values, or a range as \"1..20\"");
+    std::set<std::string> names;
+    for (const Value& value : values)
+      if (!names.insert(value.name).second)
+        refuse(name, node, fmt::format("{}: has the value '{}' twice", key, value.name));
+    keys_.push_back(key);
+    values_.push_back(std::move(values));
+  }
+}
+
+/// Adds the words of a pattern. @throws std::out_of_range for a place that nothing fills
+void SweepFile::add(std::vector<std::string>& words, const std::string& pattern,
+                    const std::vector<const Value*>& values) const {
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    if (pattern != "{" + keys_[k] + "}" || !values[k]->isList) continue;
+    words.insert(words.end(), values[k]->words.begin(), values[k]->words.end());
+    return;
+  }
+  std::string word;
+  for (std::size_t at = 0; at < pattern.size();) {
+    const std::size_t open = pattern.find('{', at);
+    const std::size_t close = open == pattern.npos ? open : pattern.find('}', open);
+    word += pattern.substr(at, close == pattern.npos ? pattern.npos : open - at);
+    if (close == pattern.npos) break;
+    const std::string inner = pattern.substr(open + 1, close - open - 1);
+    const std::size_t dot = std::min(inner.find('.'), inner.size());
+    const auto key = std::find(keys_.begin(), keys_.end(), inner.substr(0, dot));
+    const std::string field = dot < inner.size() ? inner.substr(dot + 1) : "";
+    if (key == keys_.end()) throw std::out_of_range(inner);
+    const auto& fields = values[static_cast<std::size_t>(key - keys_.begin())]->fields;
+    const auto found = fields.find(field);
+    if (found == fields.end()) throw std::out_of_range(inner);
+    word += found->second;
+    at = close + 1;
+  }
+  words.push_back(word);
+}
+
+/// Checks that each value is used, and each place is filled.
+void SweepFile::checkUse(const std::string& name) const {
+  for (const std::string& key : keys_) {
+    const auto uses = [&](const std::string& pattern) {
+      return pattern.find("{" + key + "}") != pattern.npos ||
+             pattern.find("{" + key + ".") != pattern.npos;
+    };
+    if (std::none_of(patterns_.begin(), patterns_.end(), uses))
+      throw ConfigError(
+          fmt::format("{}: {} is varied, but {{{}}} stands nowhere in command", name, key, key));
+  }
+  std::size_t most = 0;
+  for (const auto& values : values_) most = std::max(most, values.size());
+  for (std::size_t i = 0; i < most; ++i) {
+    std::vector<const Value*> values;
+    for (const auto& all : values_) values.push_back(&all[std::min(i, all.size() - 1)]);
+    for (const std::string& pattern : patterns_) {
+      try {
+        std::vector<std::string> words;
+        add(words, pattern, values);
+      } catch (const std::out_of_range& error) {
+        throw ConfigError(fmt::format("{}: nothing fills {{{}}} of '{}' in command", name,
+                                      error.what(), pattern));
+      }
+    }
+  }
+}
+
+std::size_t SweepFile::size() const {
+  std::size_t tasks = 1;
+  for (const auto& values : values_) tasks *= values.size();
+  return tasks;
+}
+
+SweepTask SweepFile::task(std::size_t index) const {
+  std::vector<const Value*> values(keys_.size());
+  for (std::size_t k = keys_.size(); k-- > 0; index /= values_[k].size())
+    values[k] = &values_[k][index % values_[k].size()];
+  SweepTask task;
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    task.name += (k == 0 ? "" : ",") + keys_[k] + "=" + values[k]->name;
+    task.values.push_back(values[k]->name);
+  }
+  if (task.name.empty()) task.name = "all";
+  ContentDigest digest;
+  for (const std::string& pattern : patterns_) add(task.words, pattern, values);
+  for (const std::string& word : task.words) digest.add(word);
+  task.id = digest.text().substr(0, 16);
+  return task;
+}
+
+std::vector<std::string> SweepFile::namesOf(const std::string& key) const {
+  const auto k = std::find(keys_.begin(), keys_.end(), key) - keys_.begin();
+  std::vector<std::string> names;
+  for (const Value& value : values_[static_cast<std::size_t>(k)]) names.push_back(value.name);
+  return names;
+}
+
+}  // namespace ortung::app

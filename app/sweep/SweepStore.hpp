@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "PartSet.hpp"
+#include "SweepFile.hpp"
+
+namespace ortung::app {
+
+/// The folder of a sweep: what was done, told by its files alone.
+///
+///   sweep.toml, folder.txt       the sweep, and the folder of its relative paths
+///   tasks/ID.part                results of tasks whose shard is not done
+///   shards/I-of-N.pack           results of a shard's tasks
+///   costs/I-of-N.tsv             seconds and memory of these tasks
+///   failed/ID.txt                what a task said that failed
+///
+/// Each file appears whole or not at all, and is the same whoever writes it, so several machines
+/// may work in one folder, also on the same tasks. Not thread-safe.
+class SweepStore {
+ public:
+  enum class State : std::uint8_t { kMissing, kDone, kStale, kTorn, kFailed };
+  /// What is known of a task.
+  struct Result {
+    State state = State::kMissing;
+    std::string why;  ///< why it is stale or torn
+  };
+  struct Cost {
+    double seconds = 0.0;
+    double megabytes = 0.0;
+  };
+
+  /// Makes the folder if it is not there. @throws std::runtime_error
+  SweepStore(std::filesystem::path folder, const SweepFile& sweep);
+  /// Opens the folder of a sweep that was begun. @throws std::runtime_error if there is none
+  static SweepFile sweepOf(const std::filesystem::path& folder);
+
+  /// Looks at all files anew.
+  void look();
+  Result resultOf(const SweepTask& task);
+  /// Returns the JSON that the task's command would have written. @pre it is done or stale
+  std::string figuresOf(const SweepTask& task) const;
+  std::optional<Cost> costOf(const std::string& id) const;
+
+  std::filesystem::path partOf(const std::string& id) const;
+  std::filesystem::path failureOf(const std::string& id) const;
+  /// Writes the results of a shard into one file, and removes the files of its tasks.
+  /// @pre all of them are done
+  void pack(const Shard& shard, const std::vector<SweepTask>& tasks,
+            const std::map<std::string, Cost>& costs);
+  /// Returns the results that belong to no task of the sweep.
+  std::size_t strangers(const std::vector<std::string>& ids) const;
+
+ private:
+  /// From what a result was made.
+  struct Origin {
+    std::string version;
+    std::map<std::string, std::string> inputs;
+    bool operator==(const Origin&) const = default;
+  };
+  struct Place {
+    std::filesystem::path file;
+    std::size_t origin = 0;  ///< index in origins_
+    std::size_t index = 0;   ///< in a pack
+    bool isPacked = false;
+  };
+  std::size_t originNumber(Origin origin);
+  void lookAtPack(const std::filesystem::path& file);
+  void lookAtTask(const std::filesystem::path& file);
+  const std::string& stalenessOf(std::size_t origin);
+  std::string digestNow(const std::string& name);
+
+  std::filesystem::path folder_;
+  const SweepFile& sweep_;
+  std::vector<Origin> origins_;
+  std::map<std::size_t, std::string> staleness_;   ///< by origin, once it was asked for
+  std::map<std::string, std::string> digests_;     ///< of files as they are now
+  std::unordered_map<std::string, Place> places_;  ///< by id
+  std::map<std::string, std::string> torn_;        ///< files that can't be read, and why
+  std::unordered_map<std::string, Cost> costs_;
+};
+
+}  // namespace ortung::app

@@ -1,0 +1,166 @@
+#include "SweepTable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace ortung::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns the number at a path like "at_corrections.nees_mean", or NaN. A list's entries are
+/// numbered from 0; "cells.0.scoring.value".
+double figureIn(const Json& json, const std::string& path) {
+  const Json* at = &json;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string word = path.substr(begin, end - begin);
+    if (at->is_object() && at->contains(word)) {
+      at = &(*at)[word];
+    } else if (at->is_array() && !word.empty() && word.size() < 7 &&
+               word.find_first_not_of("0123456789") == word.npos && std::stoul(word) < at->size()) {
+      at = &(*at)[std::stoul(word)];
+    } else {
+      return kNan;
+    }
+    begin = end + 1;
+  }
+  if (at->is_boolean()) return at->get<bool>() ? 1.0 : 0.0;
+  return at->is_number() ? at->get<double>() : kNan;
+}
+
+/// Sums up one figure.
+class Summing {
+ public:
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    ++count_;
+    const double before = mean_;
+    mean_ += (value - before) / static_cast<double>(count_);
+    squares_ += (value - before) * (value - mean_);
+  }
+  SweepTable::Cell cell() const {
+    const auto n = static_cast<double>(count_);
+    return {count_, count_ > 0 ? mean_ : kNan,
+            count_ > 1 ? std::sqrt(squares_ / (n - 1.0) / n) : kNan};
+  }
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0.0;
+  double squares_ = 0.0;
+};
+
+struct Adding {
+  SweepTable::Row row;
+  std::vector<Summing> sums;
+};
+
+std::string shown(const SweepTable::Cell& cell) {
+  if (!std::isfinite(cell.mean)) return "-";
+  if (!std::isfinite(cell.error)) return fmt::format("{:.4g}", cell.mean);
+  return fmt::format("{:.4g} ± {:.2g}", cell.mean, cell.error);
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string inMarkdown(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '|' ? std::string("\\|") : std::string(1, c == '\n' ? ' ' : c);
+  return out.empty() ? "-" : out;
+}
+
+std::string csvNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+}  // namespace
+
+std::vector<std::string> usualFigures(const std::string& command) {
+  if (command == "eval")
+    return {"converged_after_s", "position_median_m", "position_rmse_m", "heading_rmse_deg",
+            "lost_share",        "tracking_share",    "nees_mean"};
+  return {"cells.0.scoring.value"};
+}
+
+SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::string> keys,
+                   std::vector<std::string> figures) {
+  SweepTable table{std::move(keys), std::move(figures), {}, {}};
+  std::vector<std::size_t> kept;
+  for (const std::string& key : table.keys)
+    kept.push_back(static_cast<std::size_t>(
+        std::find(sweep.keys().begin(), sweep.keys().end(), key) - sweep.keys().begin()));
+  std::map<std::vector<std::string>, std::size_t> numbers;
+  std::vector<Adding> rows;
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    const SweepTask task = sweep.task(i);
+    std::vector<std::string> values;
+    for (const std::size_t k : kept) values.push_back(task.values[k]);
+    const auto [place, isNew] = numbers.try_emplace(values, rows.size());
+    if (isNew) rows.push_back({{values, 0, 0, {}}, std::vector<Summing>(table.figures.size())});
+    Adding& row = rows[place->second];
+    ++row.row.tasks;
+    if (store.resultOf(task).state != SweepStore::State::kDone) {
+      table.missing.push_back(task.name);
+      continue;
+    }
+    ++row.row.done;
+    const Json json = Json::parse(store.figuresOf(task));
+    for (std::size_t f = 0; f < table.figures.size(); ++f)
+      row.sums[f].add(figureIn(json, table.figures[f]));
+  }
+  for (Adding& row : rows) {
+    for (const Summing& sum : row.sums) row.row.cells.push_back(sum.cell());
+    table.rows.push_back(std::move(row.row));
+  }
+  return table;
+}
+
+std::string toMarkdown(const SweepTable& table) {
+  std::string text = "|";
+  for (const std::string& key : table.keys) text += " " + inMarkdown(key) + " |";
+  text += " done |";
+  for (const std::string& figure : table.figures) text += " " + inMarkdown(figure) + " |";
+  text += "\n|";
+  for (std::size_t i = 0; i < table.keys.size() + table.figures.size() + 1; ++i) text += "---|";
+  text += "\n";
+  for (const SweepTable::Row& row : table.rows) {
+    text += "|";
+    for (const std::string& value : row.values) text += " " + inMarkdown(value) + " |";
+    text += fmt::format(" {} of {} |", row.done, row.tasks);
+    for (const SweepTable::Cell& cell : row.cells) text += " " + shown(cell) + " |";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string toCsv(const SweepTable& table) {
+  std::string text;
+  for (const std::string& key : table.keys) text += quoted(key) + ",";
+  text += "tasks,done";
+  for (const std::string& figure : table.figures)
+    text += "," + quoted(figure) + "," + quoted(figure + " error");
+  text += "\n";
+  for (const SweepTable::Row& row : table.rows) {
+    for (const std::string& value : row.values) text += quoted(value) + ",";
+    text += fmt::format("{},{}", row.tasks, row.done);
+    for (const SweepTable::Cell& cell : row.cells)
+      text += "," + csvNumber(cell.mean) + "," + csvNumber(cell.error);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace ortung::app

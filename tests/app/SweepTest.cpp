@@ -1,0 +1,184 @@
+// Sweeps as a user, a cluster, and bad luck run them.
+#include <algorithm>
+#include <csignal>
+#include <random>
+
+#include "Files.hpp"
+#include "Workspace.hpp"
+
+namespace ortung::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+class Sweep : public Workspace {
+ protected:
+  Sweep() {
+    learnTables();
+    recordRun();
+    write("sweep.toml",
+          R"(command = ["eval", "--source", "record:run.rec", "--start", "truth", "--robot",
+  "robot.toml", "--tables", "hall.ortung", "--set", "mcl.particles={n}", "--seed", "{seed}",
+  "--no-times"]
+[vary]
+n = [100, 200]
+seed = "1..5"
+)");
+  }
+  Outcome sweep(const Words& words) const {
+    Words all = {"sweep"};
+    all.insert(all.end(), words.begin(), words.end());
+    return ortung(all);
+  }
+  Outcome run(const std::string& dir, const Words& more = {}) const {
+    Words words = {"run", path("sweep.toml"), "--dir", path(dir)};
+    words.insert(words.end(), more.begin(), more.end());
+    return sweep(words);
+  }
+  std::string csv(const std::string& dir) const {
+    const Outcome outcome =
+        sweep({"table", path(dir), "--by", "n,seed", "--csv", path(dir + ".csv"), "--force"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return read(dir + ".csv");
+  }
+  Words filesOf(const std::string& dir) const {
+    Words names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / dir))
+      if (entry.is_regular_file())
+        names.push_back(entry.path().lexically_relative(folder_ / dir).string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(Sweep, RunsEachTaskOnceAndTellsOfIt) {
+  EXPECT_EQ(sweep({"plan", path("sweep.toml")}).out.find("10 tasks"),
+            sweep({"plan", path("sweep.toml")}).out.size() - 9);
+  const Outcome first = run("all", {"--jobs", "2"});
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  EXPECT_EQ(first.out, "10 of 10 tasks were run, 0 failed\n");
+  EXPECT_EQ(run("all").out, "0 of 10 tasks were run, 0 failed\n");
+  const Outcome status = sweep({"status", path("all")});
+  EXPECT_EQ(status.exitCode, 0);
+  EXPECT_EQ(status.out, "10 of 10 tasks are done\n");
+  EXPECT_EQ(filesOf("all"),
+            (Words{"costs/1-of-1.tsv", "folder.txt", "shards/1-of-1.pack", "sweep.toml"}));
+  EXPECT_NE(sweep({"plan", path("sweep.toml"), "--dir", path("all")}).out.find(" s, "),
+            std::string::npos);
+}
+
+// The figures are those of the command itself.
+TEST_F(Sweep, HasTheFiguresOfItsCommand) {
+  ASSERT_EQ(run("all").exitCode, 0);
+  const Outcome alone =
+      ortung({"eval", "--source", "record:" + path("run.rec"), "--start", "truth", "--robot",
+              path("robot.toml"), "--tables", path("hall.ortung"), "--set", "mcl.particles=200",
+              "--seed", "3", "--no-times", "--json", path("alone.json")});
+  ASSERT_EQ(alone.exitCode, 0) << alone.err;
+  const std::string json = read("alone.json");
+  const std::size_t at = json.find("\"position_rmse_m\": ") + 19;
+  const std::string rmse = json.substr(at, json.find(',', at) - at);
+  EXPECT_NE(csv("all").find("200,3,1,1,"), std::string::npos);
+  EXPECT_NE(csv("all").find("," + rmse + ","), std::string::npos) << rmse << "\n" << csv("all");
+}
+
+TEST_F(Sweep, ShardsAndTasksGiveTheSameTable) {
+  ASSERT_EQ(run("all").exitCode, 0);
+  const std::string table = csv("all");
+  for (const char* shard : {"1/3", "2/3", "3/3"})
+    ASSERT_EQ(run("cut", {"--shard", shard}).exitCode, 0);
+  EXPECT_EQ(csv("cut"), table);
+  for (int n : {100, 200})
+    for (int seed = 1; seed <= 5; ++seed)
+      ASSERT_EQ(
+          run("single", {"--task", "n=" + std::to_string(n) + ",seed=" + std::to_string(seed)})
+              .exitCode,
+          0);
+  EXPECT_EQ(csv("single"), table);
+  EXPECT_EQ(read("cut/shards/2-of-3.pack").find("nothing"), std::string::npos);
+}
+
+TEST_F(Sweep, ResultsAreStaleOnceAnInputHasChanged) {
+  ASSERT_EQ(run("all").exitCode, 0);
+  replace("robot.toml", "fov_deg = 180", "fov_deg = 180 ");
+  const Outcome status = sweep({"status", path("all")});
+  EXPECT_EQ(status.exitCode, 1);
+  EXPECT_NE(status.out.find("n=100,seed=1: robot.toml has changed"), std::string::npos)
+      << status.out;
+  EXPECT_NE(status.out.find("0 of 10 tasks are done, 10 stale"), std::string::npos);
+  EXPECT_EQ(run("all").out, "10 of 10 tasks were run, 0 failed\n");
+  EXPECT_EQ(sweep({"status", path("all")}).exitCode, 0);
+}
+
+TEST_F(Sweep, MoreValuesLeaveWhatIsDone) {
+  ASSERT_EQ(run("all").exitCode, 0);
+  replace("sweep.toml", "1..5", "1..6");
+  EXPECT_EQ(run("all").out, "2 of 12 tasks were run, 0 failed\n");
+}
+
+TEST_F(Sweep, TornFilesAreTornAndMadeAnew) {
+  ASSERT_EQ(run("all", {"--task", "n=100,seed=1"}).exitCode, 0);
+  const std::string part = "all/" + filesOf("all").back();
+  ASSERT_NE(part.find(".part"), std::string::npos);
+  writeBytes(folder_ / part, read(part).substr(0, 200));
+  const Outcome status = sweep({"status", path("all")});
+  EXPECT_NE(status.out.find("torn "), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("9 missing, 1 torn"), std::string::npos) << status.out;
+  EXPECT_EQ(run("all").out, "10 of 10 tasks were run, 0 failed\n");
+  writeBytes(folder_ / "all/shards/1-of-1.pack", "PK");
+  EXPECT_EQ(run("all").out, "10 of 10 tasks were run, 0 failed\n");
+  EXPECT_EQ(sweep({"status", path("all")}).exitCode, 0);
+}
+
+TEST_F(Sweep, TasksThatFailAreNamedWithWhatTheySaid) {
+  replace("sweep.toml", "\"robot.toml\"", "\"none.toml\"");
+  const Outcome outcome = run("all");
+  EXPECT_EQ(outcome.exitCode, 1);
+  EXPECT_NE(outcome.err.find("n=100,seed=1: failed, see "), std::string::npos) << outcome.err;
+  const std::string said = read("all/" + filesOf("all").front());
+  EXPECT_NE(said.find("none.toml"), std::string::npos) << said;
+  EXPECT_NE(sweep({"status", path("all")}).out.find("10 failed"), std::string::npos);
+}
+
+TEST_F(Sweep, AveragesAndWritesPages) {
+  ASSERT_EQ(run("all", {"--shard", "1/2"}).exitCode, 0);
+  const Outcome outcome = sweep({"table", path("all"), "--figures", "position_rmse_m,lost_share",
+                                 "--html", path("all.html")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("| n | done | position_rmse_m | lost_share |"), std::string::npos);
+  EXPECT_NE(outcome.out.find("| 100 | 3 of 5 | "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" ± "), std::string::npos);
+  EXPECT_NE(outcome.err.find("5 of 10 tasks have no result, e.g. n=100,seed=2"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(read("all.html").find("<svg"), std::string::npos);
+  expectRefused(sweep({"table", path("all"), "--by", "x"}), 2, "ortung sweep table: --by is 'x'",
+                {});
+  expectRefused(sweep({"status", path("none")}), 1, "ortung sweep status: ", {"no folder"});
+  expectRefused(run("all", {"--task", "x"}), 2, "ortung sweep run: --task is 'x'", {"no task"});
+}
+
+// Whatever dies on the way: what is done stays done, and nothing else is left.
+TEST_F(Sweep, KilledShardsAreRunAgainAndNothingIsLost) {
+  ASSERT_EQ(run("one").exitCode, 0);
+  const std::string table = csv("one");
+  std::mt19937 random(1);
+  for (int i = 1; i <= 5; ++i) {
+    const Words words = {"sweep",     "run",     path("sweep.toml"),       "--dir",
+                         path("all"), "--shard", std::to_string(i) + "/5", "--progress"};
+    Program program(words);
+    program.waitForError(random() % 2 == 0 ? "running tasks [" : "run");
+    program.signal(SIGKILL);
+    program.finish();
+  }
+  for (int i = 1; i <= 5; ++i)
+    ASSERT_EQ(run("all", {"--shard", std::to_string(i) + "/5"}).exitCode, 0);
+  EXPECT_EQ(csv("all"), table);
+  for (const std::string& name : filesOf("all"))
+    EXPECT_TRUE(name.starts_with("shards/") || name.starts_with("costs/") || name == "sweep.toml" ||
+                name == "folder.txt")
+        << name;
+}
+
+}  // namespace
+}  // namespace ortung::test
