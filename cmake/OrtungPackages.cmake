@@ -136,7 +136,9 @@ function(ortung_install_documents)
   install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung-doc
           COMPONENT ortung-doc EXCLUDE_FROM_ALL)
   install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libortung-dev/examples
-          COMPONENT libortung-dev EXCLUDE_FROM_ALL)
+          COMPONENT libortung-dev EXCLUDE_FROM_ALL PATTERN cluster EXCLUDE)
+  install(DIRECTORY examples/cluster DESTINATION ${CMAKE_INSTALL_DATADIR}/ortung COMPONENT ortung-sim
+          USE_SOURCE_PERMISSIONS)
 endfunction()
 
 # The licence, and those of what is linked into the program or part of its page.

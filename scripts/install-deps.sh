@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# install-deps.sh [demo|test|all]  installs what Ortung needs on Debian 12. Does nothing, and needs no rights, if all of it is
+# install-deps.sh [demo|test|all|clusters]  installs what Ortung needs on Debian 12. Does nothing, and needs no rights, if all of it is
 # there.
 #   demo  what scripts/demo.sh builds and runs
 #   test  that, and all else that is built and tested (the default)
 #   all   that, and what CI and developers use besides
+#   clusters  only what the tests of sweeps on many machines start: Slurm, GNU parallel, Dask
 set -euo pipefail
 
 demo=(
@@ -50,12 +51,16 @@ all=(
   # benchmarks, fuzz targets, format, lint
   libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19
 )
+clusters=(
+  slurmctld slurmd slurm-client munge parallel python3-distributed procps
+)
 
 case ${1:-test} in
   demo) packages=("${demo[@]}") ;;
   test) packages=("${demo[@]}" "${test[@]}") ;;
   all) packages=("${demo[@]}" "${test[@]}" "${all[@]}") ;;
-  *) echo "usage: $0 [demo|test|all]" >&2; exit 2 ;;
+  clusters) packages=("${clusters[@]}") ;;
+  *) echo "usage: $0 [demo|test|all|clusters]" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -9,6 +9,7 @@ import xml.etree.ElementTree as xml
 def reason(output):
     """What the test said when it skipped itself: the line behind GoogleTest's "FILE:LINE: Skipped"."""
     found = re.search(r"^.*: Skipped\n(.+)$", output, re.MULTILINE)
+    found = found or re.search(r"^skipped: (.+)$", output, re.MULTILINE)
     if not found:
         return "(no reason was given)"
     text = found.group(1).strip()

@@ -13,8 +13,6 @@ struct MergeArguments {
   bool force = false;          ///< whether to overwrite files of other kinds
   bool progress = false;
 };
-/// Exit code if the parts can't be joined.
-inline constexpr int kBadParts = 3;
 int runMerge(const MergeArguments& arguments);
 
 }  // namespace ortung::app

@@ -69,6 +69,27 @@ void writeResults(const GoalMatrix& matrix, const std::filesystem::path& json,
   fmt::print("{}", toText(matrix));
 }
 
+bool isJson(const std::filesystem::path& file) {
+  std::string why;
+  std::ifstream in = openInput(file, why);
+  return in && in.peek() == '{';
+}
+
+/// Merges what --shard wrote before there were parts.
+GoalMatrix mergeOld(const std::vector<std::filesystem::path>& files) {
+  std::vector<GoalMatrix> shards;
+  for (const auto& file : files) shards.push_back(readMatrix(file));
+  return mergeShards(shards);
+}
+
+GoalMatrix mergeParts(const std::vector<std::filesystem::path>& files) {
+  const PartSet parts(files);
+  if (parts.head().kind != kGoalkeeperParts)
+    throw PartError({"the parts are of '" + parts.head().kind +
+                     "', expected those of `ortung benchmark goalkeeper`"});
+  return mergeMatrices(parts);
+}
+
 }  // namespace
 
 int runGoalkeeperBenchmark(const GoalkeeperBenchmarkArguments& a) {
@@ -137,12 +158,14 @@ int runBenchmarkMerge(const BenchmarkMergeArguments& a) {
   for (const auto& file : a.files) outputs.reads(file);
   outputs.writes("--json", a.json, OutputKind::kBenchmark);
   outputs.writes("--html", a.html, OutputKind::kPage);
-  const PartSet parts(a.files);
-  if (parts.head().kind != kGoalkeeperParts)
-    throw PartError({"the parts are of '" + printable(parts.head().kind) +
-                     "', expected those of `ortung benchmark goalkeeper`"});
-  writeResults(mergeMatrices(parts), a.json, a.html, outputs);
-  return 0;
+  try {
+    writeResults(isJson(a.files.front()) ? mergeOld(a.files) : mergeParts(a.files), a.json, a.html,
+                 outputs);
+    return 0;
+  } catch (const PartError& error) {
+    for (const std::string& reason : error.reasons()) fail(printable(reason));
+  }
+  return kBadParts;
 }
 
 }  // namespace ortung::app

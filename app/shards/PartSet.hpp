@@ -20,6 +20,9 @@ class PartError : public std::runtime_error {
   std::vector<std::string> reasons_;
 };
 
+/// Exit code of commands whose parts can't be joined.
+inline constexpr int kBadParts = 3;
+
 /// All parts of one job. It keeps their heads only; each is opened when it is needed.
 class PartSet {
  public:

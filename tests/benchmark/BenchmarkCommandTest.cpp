@@ -49,6 +49,12 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   // Only its own results are overwritten.
   writeBytes(file("text.txt"), "mine");
   expectError(with(play, {"--json", file("text.txt")}), 1, "text.txt");
+  // Results of before there were parts.
+  EXPECT_EQ(ortung({"benchmark", "merge", file("all.json"), "--json", file("old.json")}).exitCode,
+            0);
+  EXPECT_EQ(readBytes(file("old.json")), readBytes(file("all.json")));
+  EXPECT_EQ(ortung({"benchmark", "merge", file("2.part"), file("1.part")}).out, whole.out);
+  expectError({"benchmark", "merge", file("1.part")}, 3, "missing: 2/2");
   expectError({"merge", file("1.part"), "--out", file("half.json")}, 3, "missing: 2/2");
 }
 

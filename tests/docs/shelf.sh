@@ -15,6 +15,8 @@ cp hall.ortung tables.ortung
 "$ortung" learn --world world.toml --robot maps/robots/laboratory.toml --cell 0.2 --out lab.ortung
 "$ortung" import sim world.toml --with-robot maps/robots/laboratory.toml --option duration=25 --out lab.rec
 "$ortung" learn --world maps/fields/f2000.toml --robot maps/robots/pioneer_posts.toml --out posts.ortung
+"$ortung" learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml --out f2000.ortung
+cp "$root/examples/cluster/particles.toml" .
 "$ortung" import sim maps/fields/msl.toml --with-robot maps/robots/msl_camera.toml --option duration=1 --option pictures=on --out msl.rec
 # A match without those who come as clients.
 awk 'BEGIN { RS = ""; ORS = "\n\n" } !/name = "blue4"/' maps/scenes/f2000_match.toml | sed 's|"\.\./|"maps/|' > my_match.toml
