@@ -121,7 +121,8 @@ void changeToml(const fs::path& file, const std::string& key, const std::string&
   const Change change{wordsOf(key), value};
   const std::string text = readUnchanged(file);
   const std::lock_guard lock(changes().mutex);
-  std::vector<Change> all = changes().files[placeOf(file)];
+  const auto known = changes().files.find(placeOf(file));
+  std::vector<Change> all = known == changes().files.end() ? std::vector<Change>() : known->second;
   all.push_back(change);
   withChanges(text, all, file.string());  // throws if that is not possible
   changes().files[placeOf(file)] = std::move(all);
