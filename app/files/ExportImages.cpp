@@ -181,6 +181,7 @@ void carry(Simulation& simulation, SimRobot& robot, Random& random) {
       simulation.place(robot, pose);
       return;
     } catch (const NoRoom&) {
+      continue;
     }
   }
   throw std::runtime_error("robot " + robot.config().name + ": found no room to be carried to");

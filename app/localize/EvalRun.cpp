@@ -165,6 +165,22 @@ std::unique_ptr<Source> withFaults(std::unique_ptr<Source> source, const std::ve
   }
 }
 
+/// Adds from what a run was made, and by what.
+void addOrigin(RunResult& result, const EvalSettings& settings, const EvalJob& job,
+               const LocalizationArguments& arguments, const Localization& localization) {
+  result.kind = job.kind;
+  result.number = job.number;
+  result.seed = job.seed;
+  result.particles = localization.mclConfig().maxSamples;
+  result.robot = arguments.robot.string();
+  result.tables = arguments.tables.string();
+  result.tableInfo = localization.robot().tables;
+  result.changes = localization.mcl().mapChanges();
+  result.start = arguments.start;
+  result.faults = settings.arguments.faults;
+  result.commandLine = settings.arguments.commandLine;
+}
+
 /// Takes away what a clock has measured.
 void forgetTimes(RunResult& run) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -240,17 +256,7 @@ RunResult runJob(const EvalSettings& settings, const EvalJob& job, const EvalExt
   if (splice)
     result.events =
         eventsOf(settings, job, *splice, localization->container(), result.figures.points);
-  result.kind = job.kind;
-  result.number = job.number;
-  result.seed = job.seed;
-  result.particles = localization->mclConfig().maxSamples;
-  result.robot = arguments.robot.string();
-  result.tables = arguments.tables.string();
-  result.tableInfo = localization->robot().tables;
-  result.changes = localization->mcl().mapChanges();
-  result.start = arguments.start;
-  result.faults = settings.arguments.faults;
-  result.commandLine = settings.arguments.commandLine;
+  addOrigin(result, settings, job, arguments, *localization);
   if (job.warns) {
     warnOf(job.source, localization->source(), localization->feeder());
     warnWithoutOdometry(*localization, arguments);

@@ -52,6 +52,44 @@ bool readRange(const std::string& text, std::int64_t& first, std::int64_t& last)
          high.ptr == begin + text.size() && first <= last && last - first < kLongestRange;
 }
 
+/// Reads one value of a list.
+SweepValue valueIn(const toml::node& node, const std::string& key, const std::string& file) {
+  SweepValue value;
+  if (const toml::array* list = node.as_array()) {
+    value.isList = true;
+    value.words = wordsOf(*list, file);
+    for (const std::string& word : value.words)
+      value.name += (value.name.empty() ? "" : " ") + word;
+    if (value.words.empty()) value.name = "none";
+    return value;
+  }
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [field, content] : *table)
+      value.fields[std::string(field.str())] = wordOf(content, file);
+    value.name = value.fields["name"];
+    if (value.name.empty()) refuse(file, node, key + ": a table needs a name");
+  } else {
+    value.name = wordOf(node, file);
+  }
+  value.fields[""] = value.name;
+  return value;
+}
+
+/// Reads a list of values or a range; none if it is neither.
+std::vector<SweepValue> valuesIn(const toml::node& node, const std::string& key,
+                                 const std::string& file) {
+  std::vector<SweepValue> values;
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+  if (node.is_string() && readRange(node.as_string()->get(), first, last)) {
+    for (std::int64_t i = first; i <= last; ++i)
+      values.push_back({std::to_string(i), false, {}, {{"", std::to_string(i)}}});
+  } else if (const toml::array* list = node.as_array()) {
+    for (const toml::node& one : *list) values.push_back(valueIn(one, key, file));
+  }
+  return values;
+}
+
 }  // namespace
 
 SweepFile::SweepFile(const std::filesystem::path& file)
@@ -95,39 +133,11 @@ void SweepFile::read(const std::string& name) {
   std::sort(order.begin(), order.end());
   for (const auto& [line, key] : order) {
     const toml::node& node = *vary->get(key);
-    std::vector<Value> values;
-    const auto addPlain = [&](const std::string& word) {
-      values.push_back({word, false, {}, {{"", word}}});
-    };
-    std::int64_t first = 0;
-    std::int64_t last = 0;
-    if (node.is_string() && readRange(node.as_string()->get(), first, last)) {
-      for (std::int64_t i = first; i <= last; ++i) addPlain(std::to_string(i));
-    } else if (const toml::array* list = node.as_array()) {
-      for (const toml::node& one : *list) {
-        if (const toml::array* inner = one.as_array()) {
-          Value value{"", true, wordsOf(*inner, name), {}};
-          for (const std::string& word : value.words)
-            value.name += (value.name.empty() ? "" : " ") + word;
-          if (value.words.empty()) value.name = "none";
-          values.push_back(std::move(value));
-        } else if (const toml::table* table = one.as_table()) {
-          Value value;
-          for (const auto& [field, content] : *table)
-            value.fields[std::string(field.str())] = wordOf(content, name);
-          value.name = value.fields["name"];
-          if (value.name.empty()) refuse(name, one, key + ": a table needs a name");
-          value.fields[""] = value.name;
-          values.push_back(std::move(value));
-        } else {
-          addPlain(wordOf(one, name));
-        }
-      }
-    }
+    std::vector<SweepValue> values = valuesIn(node, key, name);
     if (values.empty())
       refuse(name, node, key + ": expected a list of values, or a range as \"1..20\"");
     std::set<std::string> names;
-    for (const Value& value : values)
+    for (const SweepValue& value : values)
       if (!names.insert(value.name).second)
         refuse(name, node, fmt::format("{}: has the value '{}' twice", key, value.name));
     keys_.push_back(key);
@@ -137,7 +147,7 @@ void SweepFile::read(const std::string& name) {
 
 /// Adds the words of a pattern. @throws std::out_of_range for a place that nothing fills
 void SweepFile::add(std::vector<std::string>& words, const std::string& pattern,
-                    const std::vector<const Value*>& values) const {
+                    const std::vector<const SweepValue*>& values) const {
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     if (pattern != "{" + keys_[k] + "}" || !values[k]->isList) continue;
     words.insert(words.end(), values[k]->words.begin(), values[k]->words.end());
@@ -177,7 +187,7 @@ void SweepFile::checkUse(const std::string& name) const {
   std::size_t most = 0;
   for (const auto& values : values_) most = std::max(most, values.size());
   for (std::size_t i = 0; i < most; ++i) {
-    std::vector<const Value*> values;
+    std::vector<const SweepValue*> values;
     for (const auto& all : values_) values.push_back(&all[std::min(i, all.size() - 1)]);
     for (const std::string& pattern : patterns_) {
       try {
@@ -198,7 +208,7 @@ std::size_t SweepFile::size() const {
 }
 
 SweepTask SweepFile::task(std::size_t index) const {
-  std::vector<const Value*> values(keys_.size());
+  std::vector<const SweepValue*> values(keys_.size());
   for (std::size_t k = keys_.size(); k-- > 0; index /= values_[k].size())
     values[k] = &values_[k][index % values_[k].size()];
   SweepTask task;
@@ -217,7 +227,7 @@ SweepTask SweepFile::task(std::size_t index) const {
 std::vector<std::string> SweepFile::namesOf(const std::string& key) const {
   const auto k = std::find(keys_.begin(), keys_.end(), key) - keys_.begin();
   std::vector<std::string> names;
-  for (const Value& value : values_[static_cast<std::size_t>(k)]) names.push_back(value.name);
+  for (const SweepValue& value : values_[static_cast<std::size_t>(k)]) names.push_back(value.name);
   return names;
 }
 

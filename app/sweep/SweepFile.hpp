@@ -17,6 +17,14 @@ struct SweepTask {
   std::vector<std::string> values;  ///< name of each varied value, in the order of the keys
 };
 
+/// A value that a sweep gives to a key.
+struct SweepValue {
+  std::string name;
+  bool isList = false;
+  std::vector<std::string> words;             ///< of a list
+  std::map<std::string, std::string> fields;  ///< of a table; "": the value itself
+};
+
 /// A file that says what a command is run with: all combinations of some values. Immutable.
 ///
 ///   command = ["eval", "--source", "record:{log}.rec", "--seed", "{seed}", "{fault}", ...]
@@ -46,15 +54,9 @@ class SweepFile {
   const std::string& command() const { return command_; }
 
  private:
-  struct Value {
-    std::string name;
-    bool isList = false;
-    std::vector<std::string> words;             ///< of a list
-    std::map<std::string, std::string> fields;  ///< of a table; "": the value itself
-  };
   void read(const std::string& name);
   void add(std::vector<std::string>& words, const std::string& pattern,
-           const std::vector<const Value*>& values) const;
+           const std::vector<const SweepValue*>& values) const;
   void checkUse(const std::string& name) const;
 
   std::string text_;
@@ -62,7 +64,7 @@ class SweepFile {
   std::string command_;
   std::vector<std::string> patterns_;
   std::vector<std::string> keys_;
-  std::vector<std::vector<Value>> values_;  ///< by key
+  std::vector<std::vector<SweepValue>> values_;  ///< by key
 };
 
 }  // namespace ortung::app

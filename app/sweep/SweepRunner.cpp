@@ -39,7 +39,7 @@ Diary newDiary() {
 }
 
 std::string textIn(std::FILE* diary) {
-  std::rewind(diary);
+  if (std::fseek(diary, 0, SEEK_SET) != 0) return "";
   std::string text;
   std::array<char, 4096> piece{};
   while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), diary))

@@ -57,7 +57,7 @@ std::string textIn(const TableFile& file, const std::string& name) {
 
 }  // namespace
 
-SweepStore::SweepStore(fs::path folder, const SweepFile& sweep)
+SweepStore::SweepStore(const fs::path& folder, const SweepFile& sweep)
     : folder_(fs::absolute(folder)), sweep_(sweep) {
   for (const char* part : {"tasks", "shards", "costs", "failed"}) makeFolder(folder_ / part);
   const auto keep = [&](const char* name, const std::string& text) {
@@ -229,9 +229,9 @@ void SweepStore::pack(const Shard& shard, const std::vector<SweepTask>& tasks,
   std::string text;
   for (const SweepTask& task : tasks) {
     const auto cost = costs.find(task.id);
-    const std::optional<Cost> known_ = cost != costs.end() ? cost->second : costOf(task.id);
-    if (known_)
-      text += fmt::format("{}\t{:.3f}\t{:.1f}\n", task.id, known_->seconds, known_->megabytes);
+    const std::optional<Cost> spent = cost != costs.end() ? cost->second : costOf(task.id);
+    if (spent)
+      text += fmt::format("{}\t{:.3f}\t{:.1f}\n", task.id, spent->seconds, spent->megabytes);
   }
   if (!text.empty()) writeFile(folder_ / "costs" / (name + ".tsv"), text);
   std::error_code ignored;

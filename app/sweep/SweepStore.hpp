@@ -38,7 +38,7 @@ class SweepStore {
   };
 
   /// Makes the folder if it is not there. @throws std::runtime_error
-  SweepStore(std::filesystem::path folder, const SweepFile& sweep);
+  SweepStore(const std::filesystem::path& folder, const SweepFile& sweep);
   /// Opens the folder of a sweep that was begun. @throws std::runtime_error if there is none
   static SweepFile sweepOf(const std::filesystem::path& folder);
 

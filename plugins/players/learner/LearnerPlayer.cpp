@@ -145,7 +145,7 @@ class LearnerPlayer : public Player {
     try {
       seat.stage()->placeRobot(seat.name(), pose);
     } catch (const std::invalid_argument&) {
-      // A sensor may be where its robot can't be.
+      return;  // a sensor may be where its robot can't be
     }
   }
 
