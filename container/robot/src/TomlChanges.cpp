@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -49,18 +50,25 @@ std::vector<std::string> wordsOf(const std::string& key) {
   return words;
 }
 
-/// Sets a value of a table. What is no TOML is a text.
-void set(toml::table& table, const std::string& key, const std::string& value) {
+/// Returns the TOML of one value as a table with it; nothing if it is no TOML.
+std::optional<toml::table> parsedValue(const std::string& value) {
   try {
     toml::table parsed = toml::parse("value = " + value);
-    if (parsed.size() == 1) {
-      parsed.get("value")->visit([&](auto& node) { table.insert_or_assign(key, std::move(node)); });
-      return;
-    }
+    if (parsed.size() == 1) return parsed;
+    return std::nullopt;  // it would bring further keys
   } catch (const toml::parse_error&) {
-    // A text without quotes.
+    return std::nullopt;
   }
-  table.insert_or_assign(key, value);
+}
+
+/// Sets a value of a table. What is no TOML is a text.
+void set(toml::table& table, const std::string& key, const std::string& value) {
+  std::optional<toml::table> parsed = parsedValue(value);
+  if (!parsed) {
+    table.insert_or_assign(key, value);
+    return;
+  }
+  parsed->get("value")->visit([&](auto& node) { table.insert_or_assign(key, std::move(node)); });
 }
 
 /// Returns whether a word means that table of a list.
