@@ -5,8 +5,8 @@
 
 namespace ortung::app {
 
-/// One of the equal parts into which a job is cut: the same job, number and count give the same
-/// result, whoever computes it.
+/// One of the equal parts into which a job is cut. Its result depends on job, number and count
+/// alone.
 struct Shard {
   std::uint64_t number = 1;  ///< its number, from 1
   std::uint64_t count = 1;   ///< number of all shards

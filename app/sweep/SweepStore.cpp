@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
-#include <unordered_set>
 #include <utility>
 
 #include "ContentDigest.hpp"
@@ -239,13 +238,6 @@ void SweepStore::pack(const Shard& shard, const std::vector<SweepTask>& tasks,
     fs::remove(partOf(task.id), ignored);
     fs::remove(failureOf(task.id), ignored);
   }
-}
-
-std::size_t SweepStore::strangers(const std::vector<std::string>& ids) const {
-  const std::unordered_set<std::string> own(ids.begin(), ids.end());
-  std::size_t count = 0;
-  for (const auto& [id, place] : places_) count += own.contains(id) ? 0 : 1;
-  return count;
 }
 
 }  // namespace ortung::app

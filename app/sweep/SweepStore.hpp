@@ -22,8 +22,8 @@ namespace ortung::app {
 ///   costs/I-of-N.tsv             seconds and memory of these tasks
 ///   failed/ID.txt                what a task said that failed
 ///
-/// Each file appears whole or not at all, and is the same whoever writes it, so several machines
-/// may work in one folder, also on the same tasks. Not thread-safe.
+/// Each file is written atomically, and its content depends on the sweep alone, so several machines
+/// may work in one folder, even on the same tasks. Not thread-safe.
 class SweepStore {
  public:
   enum class State : std::uint8_t { kMissing, kDone, kStale, kTorn, kFailed };
@@ -55,8 +55,6 @@ class SweepStore {
   /// @pre all of them are done
   void pack(const Shard& shard, const std::vector<SweepTask>& tasks,
             const std::map<std::string, Cost>& costs);
-  /// Returns the results that belong to no task of the sweep.
-  std::size_t strangers(const std::vector<std::string>& ids) const;
 
  private:
   /// From what a result was made.

@@ -1,6 +1,6 @@
 """Sweeps of `ortung sweep` from Python: run here, or by anything that has futures, such as Dask's Client.
 
-The program does the work; this module calls it. Results lie in a folder that all workers share, and are the same whoever makes them.
+The program does the work; this module calls it. Results lie in a folder that all workers share; they do not depend on the worker.
 """
 from __future__ import annotations
 
