@@ -21,9 +21,11 @@ void act(const Batch& batch, std::vector<float>& actions) {
               std::span(actions).subspan(i * width, width));
 }
 
-/// With episodes that begin anew by themselves, all in one thread.
+/// With episodes that begin anew by themselves. Arguments: episodes, threads.
 void steps(benchmark::State& state, const char* id, const Options& options) {
-  Batch batch(id, options, {.episodes = static_cast<std::size_t>(state.range(0))});
+  Batch batch(id, options,
+              {.episodes = static_cast<std::size_t>(state.range(0)),
+               .threads = static_cast<unsigned>(state.range(1))});
   std::vector<float> actions;
   for (auto _ : state) {
     act(batch, actions);
@@ -52,11 +54,14 @@ const Options kShot = {{"striker", {std::string("shot")}}};
 
 BENCHMARK_CAPTURE(naive, goalkeeper, "goalkeeper-v0", {});
 BENCHMARK_CAPTURE(naive, goalkeeper_shot, "goalkeeper-v0", kShot);
-BENCHMARK_CAPTURE(steps, goalkeeper, "goalkeeper-v0", {})->Arg(1)->Arg(64)->Arg(256);
-BENCHMARK_CAPTURE(steps, goalkeeper_shot, "goalkeeper-v0", kShot)->Arg(64);
-BENCHMARK_CAPTURE(steps, striker, "striker-v0", {})->Arg(64);
-BENCHMARK_CAPTURE(steps, keeper_vs_striker, "keeper-vs-striker-v0", {})->Arg(64);
-BENCHMARK_CAPTURE(steps, localize_and_score, "localize-and-score-v0", {})->Arg(16);
+BENCHMARK_CAPTURE(steps, goalkeeper, "goalkeeper-v0", {})
+    ->ArgsProduct({{1, 64, 256}, {1}})
+    ->ArgsProduct({{64, 256}, {2}})
+    ->UseRealTime();
+BENCHMARK_CAPTURE(steps, goalkeeper_shot, "goalkeeper-v0", kShot)->Args({64, 1});
+BENCHMARK_CAPTURE(steps, striker, "striker-v0", {})->Args({64, 1});
+BENCHMARK_CAPTURE(steps, keeper_vs_striker, "keeper-vs-striker-v0", {})->Args({64, 1});
+BENCHMARK_CAPTURE(steps, localize_and_score, "localize-and-score-v0", {})->Args({16, 1});
 
 }  // namespace
 

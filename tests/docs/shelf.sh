@@ -16,7 +16,7 @@ cp hall.ortung tables.ortung
 "$ortung" import sim world.toml --with-robot maps/robots/laboratory.toml --option duration=25 --out lab.rec
 "$ortung" learn --world maps/fields/f2000.toml --robot maps/robots/pioneer_posts.toml --out posts.ortung
 "$ortung" learn --world maps/fields/f2000.toml --robot maps/robots/pioneer.toml --out f2000.ortung
-cp "$root/examples/cluster/particles.toml" .
+cp "$root/examples/cluster/particles.toml" "$root/python/examples/workers.py" .
 "$ortung" import sim maps/fields/msl.toml --with-robot maps/robots/msl_camera.toml --option duration=1 --option pictures=on --out msl.rec
 # A match without those who come as clients.
 awk 'BEGIN { RS = ""; ORS = "\n\n" } !/name = "blue4"/' maps/scenes/f2000_match.toml | sed 's|"\.\./|"maps/|' > my_match.toml

@@ -138,9 +138,9 @@ class IconicSensor : public Sensor {
   void objects(std::string_view kind) {
     objects_.clear();
     for (const WorldObject& object : world_->objects()) {
+      if (object.kind != kind) continue;
       const bool isOwn = object.robot != 0 && object.robot == eye_.robot;
-      if (object.kind != kind || isOwn || objects_.size() + 1 >= ObjectsData::kMostObjects)
-        continue;
+      if (isOwn || objects_.size() + 1 >= ObjectsData::kMostObjects) continue;
       const auto truth = lookAt(eye_, object.pose.x, object.pose.y);
       if (!truth) continue;
       if (settings_.occlusion) {
