@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@
 #include "Interrupt.hpp"
 #include "LocalizationArguments.hpp"
 #include "Localizing.hpp"
+#include "NoiseParts.hpp"
 #include "NoiseText.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -22,6 +24,8 @@
 
 namespace ortung::app {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string sourceOf(const std::string& text) {
   return text.find(':') == std::string::npos ? "record:" + text : text;
@@ -65,29 +69,26 @@ void useTrack(const CalibrateNoiseArguments& arguments, const std::string& name,
   }
 }
 
-std::vector<NoiseLog> readLogs(const CalibrateNoiseArguments& arguments) {
-  std::vector<NoiseLog> logs;
-  for (const std::string& text : arguments.sources) {
-    const std::string name = sourceOf(text);
-    Progress progress("reading", arguments.progress);
-    logs.push_back(readTruth(arguments, name, progress));
-    const bool hasTruth = !logs.back().reference.empty();
-    if (arguments.reference == "truth" && !hasTruth) {
-      throw std::runtime_error(name +
-                               ": has no ground truth, expected a feature of type groundTruth; "
-                               "--reference track uses the poses of MCL");
-    }
-    if (arguments.reference == "track" || !hasTruth)
-      useTrack(arguments, name, progress, logs.back());
-    if (logs.back().reference.size() < 2)
-      throw std::runtime_error(name + ": MCL was never tracking, so there is no reference");
+/// Reads the log of one source.
+NoiseLog readLog(const CalibrateNoiseArguments& arguments, const std::string& text) {
+  const std::string name = sourceOf(text);
+  Progress progress("reading", arguments.progress);
+  NoiseLog log = readTruth(arguments, name, progress);
+  const bool hasTruth = !log.reference.empty();
+  if (arguments.reference == "truth" && !hasTruth) {
+    throw std::runtime_error(name +
+                             ": has no ground truth, expected a feature of type groundTruth; "
+                             "--reference track uses the poses of MCL");
   }
-  return logs;
+  if (arguments.reference == "track" || !hasTruth) useTrack(arguments, name, progress, log);
+  if (log.reference.size() < 2)
+    throw std::runtime_error(name + ": MCL was never tracking, so there is no reference");
+  return log;
 }
 
-NoiseLearning howOf(const CalibrateNoiseArguments& arguments) {
+NoiseLearning howOf(const std::vector<std::string>& allFixed) {
   NoiseLearning how;
-  for (const std::string& fixed : arguments.fixed) {
+  for (const std::string& fixed : allFixed) {
     const auto set = [&](NoiseTerm term) { how.wanted[static_cast<std::size_t>(term)] = false; };
     if (fixed == "bias") {
       set(NoiseTerm::kRangeBias);
@@ -107,19 +108,12 @@ NoiseLearning howOf(const CalibrateNoiseArguments& arguments) {
   return how;
 }
 
-}  // namespace
-
-int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
-  Outputs outputs(arguments.force);
-  for (const std::string& source : arguments.sources) outputs.readsSource(sourceOf(source));
-  outputs.reads(arguments.robot);
-  outputs.reads(arguments.tables);
-  outputs.reads(arguments.motion);
-  outputs.writes("--out", arguments.out, OutputKind::kSettings);
-  const std::vector<NoiseLog> logs = readLogs(arguments);
-  const NoiseLearning how = howOf(arguments);
-  const std::unique_ptr<Robot> robot = openRobot(arguments.robot, arguments.tables);
-  std::string text = readTomlText(arguments.robot);
+/// Learns the noise of all devices and tells it.
+/// @return the robot file with what was learned @throws std::runtime_error if nothing was
+std::string learnAll(const std::filesystem::path& robotFile, const std::filesystem::path& tables,
+                     const std::vector<NoiseLog>& logs, const NoiseLearning& how, bool wantsKeys) {
+  const std::unique_ptr<Robot> robot = openRobot(robotFile, tables);
+  std::string text = readTomlText(robotFile);
   std::size_t learnt = 0;
   for (std::size_t sensor = 0; sensor < robot->devices.size(); ++sensor) {
     std::vector<SensorData*> features;
@@ -134,11 +128,11 @@ int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
       fmt::print("{}", noiseText(features, noise));
       const SensorConfig& config = robot->config.sensors[sensor];
       const std::vector<TomlEntry> keys = noiseEntries(config, noise);
-      if (keys.empty() && !arguments.out.empty())
+      if (keys.empty() && wantsKeys)
         warn(fmt::format(
             "{}: it is not known which keys of the plugin '{}' say this; write them by hand", name,
             printable(config.plugin)));
-      text = withSensorKeys(text, arguments.robot.string(), sensor, keys);
+      text = withSensorKeys(text, robotFile.string(), sensor, keys);
     } catch (const ConfigError&) {
       throw;
     } catch (const std::runtime_error& error) {
@@ -146,7 +140,58 @@ int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
     }
   }
   if (learnt == 0) throw std::runtime_error("nothing was learned");
-  outputs.write(arguments.out, text);
+  return text;
+}
+
+/// Reads the sources of a shard only, and writes what they have as a part.
+void readShardOf(const CalibrateNoiseArguments& arguments, const std::filesystem::path& out) {
+  const Shard shard = readShard(arguments.shard);
+  NoisePart part;
+  for (std::size_t i = 0; i < arguments.sources.size(); ++i)
+    if (shard.has(i)) part.emplace_back(i, readLog(arguments, arguments.sources[i]));
+  const Json needs = {{"robot", arguments.robot.string()},
+                      {"tables", arguments.tables.string()},
+                      {"fixed", arguments.fixed}};
+  write(part,
+        {kNoiseParts, arguments.job, shard,
+         needs.dump(-1, ' ', true, Json::error_handler_t::replace)},
+        out);
+  fmt::print("{}: part {}, {} of {} sources\n", out.string(), toText(shard), part.size(),
+             arguments.sources.size());
+}
+
+}  // namespace
+
+std::string mergeNoise(const PartSet& parts) {
+  parts.requireInputs();
+  try {
+    const Json needs = Json::parse(parts.head().needs);
+    return learnAll(needs.at("robot").get<std::string>(), needs.at("tables").get<std::string>(),
+                    mergeNoiseLogs(parts), howOf(needs.at("fixed").get<std::vector<std::string>>()),
+                    true);
+  } catch (const Json::exception& error) {
+    throw PartError({std::string("the parts do not say how they were made: ") + error.what()});
+  }
+}
+
+int runCalibrateNoise(const CalibrateNoiseArguments& arguments) {
+  const bool isPart = !arguments.shard.empty();
+  if (isPart && arguments.out.empty())
+    throw UsageError("--shard writes a part, expected its name: --out");
+  Outputs outputs(arguments.force);
+  for (const std::string& source : arguments.sources) outputs.readsSource(sourceOf(source));
+  outputs.reads(arguments.robot);
+  outputs.reads(arguments.tables);
+  outputs.reads(arguments.motion);
+  outputs.writes("--out", arguments.out, isPart ? OutputKind::kPart : OutputKind::kSettings);
+  if (isPart) {
+    readShardOf(arguments, outputs.ready(arguments.out));
+    return 0;
+  }
+  std::vector<NoiseLog> logs;
+  for (const std::string& source : arguments.sources) logs.push_back(readLog(arguments, source));
+  outputs.write(arguments.out, learnAll(arguments.robot, arguments.tables, logs,
+                                        howOf(arguments.fixed), !arguments.out.empty()));
   return 0;
 }
 

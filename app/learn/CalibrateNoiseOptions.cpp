@@ -29,6 +29,7 @@ void addNoise(Builder& build) {
   build.option("--seed", a->seed, "Seed of the track").showsDefault();
   build.flag("--any-world", a->anyWorld,
              "Accept sources from another world than that of the tables");
+  build.shard(a->shard, a->job);
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }

@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "CalibrateNoise.hpp"
 #include "Console.hpp"
 #include "EvalParts.hpp"
 #include "GoalkeeperParts.hpp"
 #include "LearnParts.hpp"
+#include "NoiseParts.hpp"
 #include "Outputs.hpp"
 #include "PartSet.hpp"
 #include "ortung/benchmark/MatrixPage.hpp"
@@ -51,6 +53,10 @@ void merge(const MergeArguments& arguments) {
                      printable(kind) + "'");
   if (kind == kLearnParts)
     return mergeLearned(parts, outOf(arguments, outputs, OutputKind::kTables), arguments.progress);
+  if (kind == kNoiseParts) {
+    const std::filesystem::path& out = outOf(arguments, outputs, OutputKind::kSettings);
+    return outputs.write(out, mergeNoise(parts));
+  }
   if (kind == kEvalParts) return mergeRuns(parts, arguments, outputs);
   if (kind == kGoalkeeperParts) return mergeBenchmark(parts, arguments, outputs);
 #ifdef ORTUNG_HAS_PICTURES

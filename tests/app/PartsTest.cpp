@@ -115,6 +115,33 @@ TEST_F(Parts, OfOneRunAreThatRun) {
   EXPECT_EQ(read("all.json"), read("one.json"));
 }
 
+TEST_F(Parts, OfNoiseAreTheNoise) {
+  learnTables();
+  recordRun();
+  const std::string record = "record:" + path("run.rec");
+  const Words calibrating = {"calibrate",
+                             "noise",
+                             record,
+                             record + "?to_s=9",
+                             "--robot",
+                             path("robot.toml"),
+                             record + "?from_s=5",
+                             "--tables",
+                             path("hall.ortung"),
+                             "--fixed",
+                             "latency"};
+  const Outcome one = ortung(calibrating + Words{"--out", path("one.toml")});
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  for (const int count : {1, 2, 7, 50}) {
+    const Outcome merged = merge(shards(calibrating, "--out", count), "all.toml");
+    ASSERT_EQ(merged.exitCode, 0) << merged.err;
+    EXPECT_EQ(read("all.toml"), read("one.toml")) << count << " shards";
+    EXPECT_EQ(merged.out, one.out);
+  }
+  const Outcome unnamed = ortung(calibrating + Words{"--shard", "1/2"});
+  expectRefused(unnamed, 2, "ortung", {"--shard writes a part, expected its name: --out"});
+}
+
 TEST_F(Parts, OfPicturesAreThePictures) {
   const std::string maps = ORTUNG_SOURCE_DIR "/maps";
   const Words drawing = {"export",
