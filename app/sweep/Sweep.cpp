@@ -10,6 +10,7 @@
 #include "Console.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "SweepCosts.hpp"
 #include "SweepFile.hpp"
 #include "SweepRunner.hpp"
 #include "SweepStore.hpp"
@@ -67,22 +68,34 @@ int runSweepPlan(const SweepPlanArguments& arguments) {
     store.emplace(arguments.dir, sweep);
     store->look();
   }
-  double seconds = 0.0;
-  std::size_t known = 0;
+  SweepCosts costs(sweep.keys());
+  for (std::size_t i = 0; store && i < sweep.size(); ++i) {
+    const SweepTask task = sweep.task(i);
+    if (const auto cost = store->costOf(task.id)) costs.add(task, *cost);
+  }
+  SweepCost all;
   for (std::size_t i = 0; i < sweep.size(); ++i) {
     const SweepTask task = sweep.task(i);
-    const auto cost = store ? store->costOf(task.id) : std::nullopt;
+    const auto known = store ? store->costOf(task.id) : std::nullopt;
+    const auto cost = known ? known : costs.estimate(task);
     fmt::print("{} {}{}\n", task.id, printable(task.name),
-               cost ? fmt::format("  {:.1f} s, {:.0f} MB", cost->seconds, cost->megabytes) : "");
+               cost ? fmt::format("  {}{:.1f} s, {:.0f} MB", known ? "" : "about ", cost->seconds,
+                                  cost->megabytes)
+                    : "");
     if (!cost) continue;
-    seconds += cost->seconds;
-    ++known;
+    all.seconds += cost->seconds;
+    all.megabytes = std::max(all.megabytes, cost->megabytes);
   }
   fmt::print("{} tasks", sweep.size());
-  if (known > 0)
-    fmt::print(", about {:.0f} s of a core by the {} that were run",
-               seconds / static_cast<double>(known) * static_cast<double>(sweep.size()), known);
+  if (costs.known() > 0)
+    fmt::print(
+        ", about {:.0f} s of a core and at most {:.0f} MB at a time, by the {} that were run",
+        all.seconds, all.megabytes, costs.known());
   fmt::print("\n");
+  if (costs.known() == 0)
+    note(
+        "what tasks cost is known once some were run: `ortung sweep run FILE --dir D --task "
+        "NAME`, then `ortung sweep plan FILE --dir D`");
   return 0;
 }
 
@@ -104,10 +117,13 @@ int runSweepRun(const SweepRunArguments& arguments) {
   }
   fmt::print("{} of {} tasks were run, {} failed\n", open.size(), tasks.size(), failed.size());
   tellFailures(store, sweep, failed);
-  if (!failed.empty()) return 1;
+  const bool isWhole = failed.empty() && arguments.task.empty() && !tasks.empty();
+  if (!isWhole) {
+    store.keep(runner.costs());
+    return failed.empty() ? 0 : 1;
+  }
   store.look();
-  if (arguments.task.empty() && !tasks.empty())
-    store.pack(readShard(arguments.shard), tasks, runner.costs());
+  store.pack(readShard(arguments.shard), tasks, runner.costs());
   return 0;
 }
 

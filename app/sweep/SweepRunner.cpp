@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -21,16 +20,17 @@
 namespace ortung::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A file without a name, which takes what a task says.
 using Diary = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 struct Running {
   const SweepTask* task = nullptr;
-  Clock::time_point since;
   Diary said;
 };
+
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 Diary newDiary() {
   Diary diary(std::tmpfile(), &std::fclose);
@@ -84,7 +84,7 @@ std::vector<std::string> SweepRunner::run(const std::vector<SweepTask>& tasks,
     while (next < tasks.size() && running.size() < jobs_ && interruptSignal() == 0) {
       Diary diary = newDiary();
       const int process = start(tasks[next], ::fileno(diary.get()));
-      running.emplace(process, Running{&tasks[next], Clock::now(), std::move(diary)});
+      running.emplace(process, Running{&tasks[next], std::move(diary)});
       ++next;
     }
     if (running.empty()) checkInterrupt();
@@ -96,10 +96,10 @@ std::vector<std::string> SweepRunner::run(const std::vector<SweepTask>& tasks,
     const auto one = running.find(process);
     if (one == running.end()) continue;
     const SweepTask& task = *one->second.task;
-    const std::chrono::duration<double> seconds = Clock::now() - one->second.since;
     ++ended;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-      costs_[task.id] = {seconds.count(), static_cast<double>(usage.ru_maxrss) / 1024.0};
+      costs_[task.id] = {secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime),
+                         static_cast<double>(usage.ru_maxrss) / 1024.0};
     } else {
       failed.push_back(task.name);
       writeFile(store_.failureOf(task.id), textIn(one->second.said.get()));

@@ -21,7 +21,7 @@ class SweepRunner {
   std::vector<std::string> run(const std::vector<SweepTask>& tasks,
                                const std::function<void(std::size_t)>& done);
   /// Returns what they cost.
-  const std::map<std::string, SweepStore::Cost>& costs() const { return costs_; }
+  const std::map<std::string, SweepCost>& costs() const { return costs_; }
 
  private:
   int start(const SweepTask& task, int said) const;
@@ -29,7 +29,7 @@ class SweepRunner {
   const SweepStore& store_;
   const SweepFile& sweep_;
   unsigned jobs_;
-  std::map<std::string, SweepStore::Cost> costs_;
+  std::map<std::string, SweepCost> costs_;
 };
 
 }  // namespace ortung::app

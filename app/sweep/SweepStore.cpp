@@ -49,6 +49,10 @@ std::string figuresIn(const fs::path& part) {
   return figuresOf(runs);
 }
 
+std::string lineOf(const std::string& id, const SweepCost& cost) {
+  return fmt::format("{}\t{:.3f}\t{:.1f}\n", id, cost.seconds, cost.megabytes);
+}
+
 std::string textIn(const TableFile& file, const std::string& name) {
   const auto bytes = file.get<std::uint8_t>(name, {0});
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -95,6 +99,7 @@ std::size_t SweepStore::originNumber(Origin origin) {
 
 void SweepStore::look() {
   places_.clear();
+  packs_.clear();
   torn_.clear();
   costs_.clear();
   for (const fs::path& file : filesIn(folder_ / "shards", ".pack")) lookAtPack(file);
@@ -102,7 +107,7 @@ void SweepStore::look() {
   for (const fs::path& file : filesIn(folder_ / "costs", ".tsv")) {
     std::ifstream in(file);
     std::string id;
-    Cost cost;
+    SweepCost cost;
     while (in >> id >> cost.seconds >> cost.megabytes) costs_[id] = cost;
   }
 }
@@ -177,9 +182,11 @@ SweepStore::Result SweepStore::resultOf(const SweepTask& task) {
 std::string SweepStore::figuresOf(const SweepTask& task) const {
   const Place& place = places_.at(task.id);
   if (!place.isPacked) return figuresIn(place.file);
-  const TableFile pack(place.file);
+  // Tasks of one pack are far from each other in the order of the sweep, so each pack stays open.
+  const TableFile& pack = packs_.try_emplace(place.file, place.file).first->second;
   const auto ends = pack.get<double>("figure_ends", {0});
   const auto bytes = pack.get<std::uint8_t>("figures", {0});
+  if (place.index >= ends.size()) throw TableError(place.file.string() + ": has no figures");
   const auto begin =
       place.index == 0 ? std::size_t{0} : static_cast<std::size_t>(ends[place.index - 1]);
   const auto end = static_cast<std::size_t>(ends[place.index]);
@@ -187,13 +194,21 @@ std::string SweepStore::figuresOf(const SweepTask& task) const {
   return {reinterpret_cast<const char*>(bytes.data()) + begin, end - begin};
 }
 
-std::optional<SweepStore::Cost> SweepStore::costOf(const std::string& id) const {
+std::optional<SweepCost> SweepStore::costOf(const std::string& id) const {
   const auto found = costs_.find(id);
   return found == costs_.end() ? std::nullopt : std::optional(found->second);
 }
 
+fs::path SweepStore::costsOf(const std::string& name) const {
+  return folder_ / "costs" / (name + ".tsv");
+}
+
+void SweepStore::keep(const std::map<std::string, SweepCost>& costs) const {
+  for (const auto& [id, cost] : costs) writeFile(costsOf(id), lineOf(id, cost));
+}
+
 void SweepStore::pack(const Shard& shard, const std::vector<SweepTask>& tasks,
-                      const std::map<std::string, Cost>& costs) {
+                      const std::map<std::string, SweepCost>& costs) {
   const std::string name = fmt::format("{}-of-{}", shard.number, shard.count);
   std::string ids;
   std::string figures;
@@ -228,15 +243,15 @@ void SweepStore::pack(const Shard& shard, const std::vector<SweepTask>& tasks,
   std::string text;
   for (const SweepTask& task : tasks) {
     const auto cost = costs.find(task.id);
-    const std::optional<Cost> spent = cost != costs.end() ? cost->second : costOf(task.id);
-    if (spent)
-      text += fmt::format("{}\t{:.3f}\t{:.1f}\n", task.id, spent->seconds, spent->megabytes);
+    const std::optional<SweepCost> spent = cost != costs.end() ? cost->second : costOf(task.id);
+    if (spent) text += lineOf(task.id, *spent);
   }
-  if (!text.empty()) writeFile(folder_ / "costs" / (name + ".tsv"), text);
+  if (!text.empty()) writeFile(costsOf(name), text);
   std::error_code ignored;
   for (const SweepTask& task : tasks) {
     fs::remove(partOf(task.id), ignored);
     fs::remove(failureOf(task.id), ignored);
+    fs::remove(costsOf(task.id), ignored);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "PartSet.hpp"
+#include "SweepCosts.hpp"
 #include "SweepFile.hpp"
 
 namespace ortung::app {
@@ -19,7 +20,7 @@ namespace ortung::app {
 ///   sweep.toml, folder.txt       the sweep, and the folder of its relative paths
 ///   tasks/ID.part                results of tasks whose shard is not done
 ///   shards/I-of-N.pack           results of a shard's tasks
-///   costs/I-of-N.tsv             seconds and memory of these tasks
+///   costs/ID.tsv, I-of-N.tsv     seconds and memory of these tasks
 ///   failed/ID.txt                what a task said that failed
 ///
 /// Each file is written atomically, and its content depends on the sweep alone, so several machines
@@ -32,10 +33,6 @@ class SweepStore {
     State state = State::kMissing;
     std::string why;  ///< why it is stale or torn
   };
-  struct Cost {
-    double seconds = 0.0;
-    double megabytes = 0.0;
-  };
 
   /// Makes the folder if it is not there. @throws std::runtime_error
   SweepStore(const std::filesystem::path& folder, const SweepFile& sweep);
@@ -47,14 +44,16 @@ class SweepStore {
   Result resultOf(const SweepTask& task);
   /// Returns the JSON that the task's command would have written. @pre it is done or stale
   std::string figuresOf(const SweepTask& task) const;
-  std::optional<Cost> costOf(const std::string& id) const;
+  std::optional<SweepCost> costOf(const std::string& id) const;
 
   std::filesystem::path partOf(const std::string& id) const;
   std::filesystem::path failureOf(const std::string& id) const;
+  /// Keeps what tasks have cost whose shard is not done.
+  void keep(const std::map<std::string, SweepCost>& costs) const;
   /// Writes the results of a shard into one file, and removes the files of its tasks.
   /// @pre all of them are done
   void pack(const Shard& shard, const std::vector<SweepTask>& tasks,
-            const std::map<std::string, Cost>& costs);
+            const std::map<std::string, SweepCost>& costs);
 
  private:
   /// From what a result was made.
@@ -69,6 +68,7 @@ class SweepStore {
     std::size_t index = 0;   ///< in a pack
     bool isPacked = false;
   };
+  std::filesystem::path costsOf(const std::string& name) const;
   std::size_t originNumber(Origin origin);
   void lookAtPack(const std::filesystem::path& file);
   void lookAtTask(const std::filesystem::path& file);
@@ -78,11 +78,12 @@ class SweepStore {
   std::filesystem::path folder_;
   const SweepFile& sweep_;
   std::vector<Origin> origins_;
-  std::map<std::size_t, std::string> staleness_;   ///< by origin, once it was asked for
-  std::map<std::string, std::string> digests_;     ///< of files as they are now
-  std::unordered_map<std::string, Place> places_;  ///< by id
-  std::map<std::string, std::string> torn_;        ///< files that can't be read, and why
-  std::unordered_map<std::string, Cost> costs_;
+  std::map<std::size_t, std::string> staleness_;              ///< by origin, once it was asked for
+  std::map<std::string, std::string> digests_;                ///< of files as they are now
+  std::unordered_map<std::string, Place> places_;             ///< by id
+  mutable std::map<std::filesystem::path, TableFile> packs_;  ///< those that were asked for figures
+  std::map<std::string, std::string> torn_;                   ///< files that can't be read, and why
+  std::unordered_map<std::string, SweepCost> costs_;
 };
 
 }  // namespace ortung::app

@@ -69,6 +69,32 @@ TEST_F(Sweep, RunsEachTaskOnceAndTellsOfIt) {
             std::string::npos);
 }
 
+// Of tasks that differ by the seed alone what one has cost is what another will.
+TEST_F(Sweep, PlansByWhatWasRun) {
+  EXPECT_NE(sweep({"plan", path("sweep.toml")}).err.find("known once some were run"),
+            std::string::npos);
+  ASSERT_EQ(run("some", {"--task", "n=100,seed=2"}).exitCode, 0);
+  EXPECT_EQ(filesOf("some").front().substr(0, 6), "costs/");
+  const Outcome plan = sweep({"plan", path("sweep.toml"), "--dir", path("some")});
+  EXPECT_EQ(plan.err, "");
+  std::istringstream lines(plan.out);
+  std::size_t known = 0;
+  std::size_t estimated = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(" tasks, about ") != line.npos) {
+      EXPECT_NE(line.find(" MB at a time, by the 1 that were run"), line.npos) << line;
+      continue;
+    }
+    estimated += line.find("  about ") != line.npos ? 1 : 0;
+    known += line.find("n=100,seed=2  0.") != line.npos ? 1 : 0;
+  }
+  EXPECT_EQ(known, 1u) << plan.out;
+  EXPECT_EQ(estimated, 9u) << plan.out;
+  ASSERT_EQ(run("some").exitCode, 0);
+  EXPECT_EQ(filesOf("some"),
+            (Words{"costs/1-of-1.tsv", "folder.txt", "shards/1-of-1.pack", "sweep.toml"}));
+}
+
 // The figures are those of the command itself.
 TEST_F(Sweep, HasTheFiguresOfItsCommand) {
   ASSERT_EQ(run("all").exitCode, 0);
