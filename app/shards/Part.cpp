@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ContentDigest.hpp"
+#include "ProgramFiles.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/container/Abi.hpp"
 
@@ -47,6 +48,7 @@ PartWriter::PartWriter(const fs::path& file, PartHead head)
 
 void PartWriter::commit() {
   head_.inputs = digestsOfInputs();
+  head_.programs = digestsOfProgram();
   const Json json = {{"format", kFormat},
                      {"kind", head_.kind},
                      {"version", head_.version},
@@ -54,7 +56,8 @@ void PartWriter::commit() {
                      {"shards", head_.shard.count},
                      {"job", Json::parse(head_.job)},
                      {"needs", Json::parse(head_.needs)},
-                     {"inputs", head_.inputs}};
+                     {"inputs", head_.inputs},
+                     {"programs", head_.programs}};
   content_.addText(kHead, json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n");
   content_.commit();
 }
@@ -76,6 +79,7 @@ PartHead headOf(const TableFile& part) {
     head.job = json.at("job").dump();
     head.needs = json.at("needs").dump();
     head.inputs = json.at("inputs").get<std::map<std::string, std::string>>();
+    head.programs = json.at("programs").get<std::map<std::string, std::string>>();
     if (head.shard.number < 1 || head.shard.number > head.shard.count ||
         head.shard.count > kMostShards)
       throw TableError(file + ": is shard " + toText(head.shard) + ", which does not exist");

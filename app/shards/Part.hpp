@@ -22,6 +22,8 @@ struct PartHead {
   std::string needs = "{}";
   std::string version = versionHere();  ///< the program's; other versions may compute otherwise
   std::map<std::string, std::string> inputs = {};  ///< digests of the files that were read, by name
+  /// Digests of the program's own files, by name: two builds of one version may compute otherwise.
+  std::map<std::string, std::string> programs = {};
 
   /// Returns the version of this program, as parts name it.
   static std::string versionHere();
@@ -33,8 +35,8 @@ class PartWriter {
  public:
   PartWriter(const std::filesystem::path& file, PartHead head);
   TableWriter& content() { return content_; }
-  /// Adds the digests of all files that this process has read to the head, and puts the file in its
-  /// place. @throws TableError
+  /// Adds the digests of the program and of all files that this process has read to the head, and
+  /// puts the file in its place. @throws TableError
   void commit();
 
  private:

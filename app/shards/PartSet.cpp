@@ -47,6 +47,18 @@ std::string differenceOf(const std::string& its, const std::string& others) {
   return text;
 }
 
+/// Returns which file of the same name is another one; "" if none is.
+std::string otherFile(const char* made, const std::map<std::string, std::string>& its,
+                      const std::map<std::string, std::string>& others) {
+  for (const auto& [name, digest] : its) {
+    const auto other = others.find(name);
+    if (other != others.end() && other->second != digest)
+      return fmt::format("was {} another {} than the others (digest {}, not {})", made, name,
+                         digest, other->second);
+  }
+  return "";
+}
+
 /// Returns why a part does not belong to the others; "" if it does.
 std::string strangenessOf(const PartHead& head, const PartHead& others) {
   if (head.kind != others.kind)
@@ -57,13 +69,9 @@ std::string strangenessOf(const PartHead& head, const PartHead& others) {
     return fmt::format("is shard {}, but the others are of {}", toText(head.shard),
                        others.shard.count);
   if (head.job != others.job) return "is of another job: " + differenceOf(head.job, others.job);
-  for (const auto& [name, digest] : head.inputs) {
-    const auto other = others.inputs.find(name);
-    if (other != others.inputs.end() && other->second != digest)
-      return fmt::format("was made from another {} than the others (digest {}, not {})", name,
-                         digest, other->second);
-  }
-  return "";
+  if (const std::string why = otherFile("made by", head.programs, others.programs); !why.empty())
+    return why;
+  return otherFile("made from", head.inputs, others.inputs);
 }
 
 /// Returns the part to which most others are equal in kind, version and job: who is foreign, the
@@ -133,6 +141,7 @@ PartSet::PartSet(const std::vector<fs::path>& files) {
       continue;
     }
     known.inputs.insert(part.head.inputs.begin(), part.head.inputs.end());
+    known.programs.insert(part.head.programs.begin(), part.head.programs.end());
     const Found*& place = shards[part.head.shard.number - 1];
     if (place == nullptr) {
       place = &part;
@@ -150,6 +159,7 @@ PartSet::PartSet(const std::vector<fs::path>& files) {
   if (!reasons.empty()) throw PartError(reasons);
   head_ = shards.front()->head;
   head_.inputs = known.inputs;
+  head_.programs = known.programs;
   for (const Found* part : shards) files_.push_back(part->file);
 }
 

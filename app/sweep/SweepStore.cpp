@@ -14,6 +14,7 @@
 #include "EvalParts.hpp"
 #include "GoalkeeperParts.hpp"
 #include "ManyRuns.hpp"
+#include "ProgramFiles.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
@@ -120,8 +121,9 @@ void SweepStore::lookAtPack(const fs::path& file) {
     const Json origins = Json::parse(textIn(pack, "origin_list"));
     std::vector<std::size_t> known;
     for (const Json& one : origins)
-      known.push_back(originNumber(
-          {one.at("version"), one.at("inputs").get<std::map<std::string, std::string>>()}));
+      known.push_back(originNumber({one.at("version"),
+                                    one.at("inputs").get<std::map<std::string, std::string>>(),
+                                    one.at("programs").get<std::map<std::string, std::string>>()}));
     if (ids.size() != numbers.size() * kIdLength) throw TableError("its lists differ in length");
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::string id(reinterpret_cast<const char*>(ids.data()) + i * kIdLength, kIdLength);
@@ -137,14 +139,16 @@ void SweepStore::lookAtTask(const fs::path& file) {
   try {
     const TableFile part(file);
     PartHead head = headOf(part);
-    places_[id] = {file, originNumber({head.version, std::move(head.inputs)}), 0, false};
+    places_[id] = {file,
+                   originNumber({head.version, std::move(head.inputs), std::move(head.programs)}),
+                   0, false};
   } catch (const std::exception& error) {
     std::error_code ignored;
     if (fs::exists(file, ignored)) torn_[id] = error.what();
   }
 }
 
-std::string SweepStore::digestNow(const std::string& name) {
+const std::string& SweepStore::digestNow(const std::string& name) {
   const auto [place, isNew] = digests_.try_emplace(name);
   if (isNew) {
     try {
@@ -156,14 +160,24 @@ std::string SweepStore::digestNow(const std::string& name) {
   return place->second;
 }
 
+const std::string& SweepStore::digestOfProgram(const std::string& name) {
+  const auto [place, isNew] = programs_.try_emplace(name);
+  if (isNew) place->second = digestOfProgramFile(name);
+  return place->second;
+}
+
 const std::string& SweepStore::stalenessOf(std::size_t origin) {
   const auto [place, isNew] = staleness_.try_emplace(origin);
   if (!isNew) return place->second;
   const Origin& from = origins_[origin];
   if (from.version != PartHead::versionHere()) place->second = "made by version " + from.version;
-  for (const auto& [name, digest] : from.inputs)
-    if (place->second.empty() && digestNow(name) != digest)
-      place->second = name + (digestNow(name) == "missing" ? " is missing" : " has changed");
+  const auto compare = [&](const std::string& name, const std::string& now,
+                           const std::string& then) {
+    if (place->second.empty() && now != then)
+      place->second = name + (now == "missing" ? " is missing" : " has changed");
+  };
+  for (const auto& [name, digest] : from.programs) compare(name, digestOfProgram(name), digest);
+  for (const auto& [name, digest] : from.inputs) compare(name, digestNow(name), digest);
   return place->second;
 }
 
@@ -221,8 +235,9 @@ void SweepStore::pack(const Shard& shard, const std::vector<SweepTask>& tasks,
     auto at = std::find(known.begin(), known.end(), origin);
     if (at == known.end()) {
       at = known.insert(known.end(), origin);
-      origins.push_back(
-          {{"version", origins_[origin].version}, {"inputs", origins_[origin].inputs}});
+      origins.push_back({{"version", origins_[origin].version},
+                         {"inputs", origins_[origin].inputs},
+                         {"programs", origins_[origin].programs}});
     }
     numbers.push_back(static_cast<std::int32_t>(at - known.begin()));
     ids += task.id;

@@ -60,6 +60,7 @@ class SweepStore {
   struct Origin {
     std::string version;
     std::map<std::string, std::string> inputs;
+    std::map<std::string, std::string> programs;
     bool operator==(const Origin&) const = default;
   };
   struct Place {
@@ -73,13 +74,15 @@ class SweepStore {
   void lookAtPack(const std::filesystem::path& file);
   void lookAtTask(const std::filesystem::path& file);
   const std::string& stalenessOf(std::size_t origin);
-  std::string digestNow(const std::string& name);
+  const std::string& digestNow(const std::string& name);
+  const std::string& digestOfProgram(const std::string& name);
 
   std::filesystem::path folder_;
   const SweepFile& sweep_;
   std::vector<Origin> origins_;
   std::map<std::size_t, std::string> staleness_;              ///< by origin, once it was asked for
   std::map<std::string, std::string> digests_;                ///< of files as they are now
+  std::map<std::string, std::string> programs_;               ///< of this program's own
   std::unordered_map<std::string, Place> places_;             ///< by id
   mutable std::map<std::filesystem::path, TableFile> packs_;  ///< those that were asked for figures
   std::map<std::string, std::string> torn_;                   ///< files that can't be read, and why

@@ -7,6 +7,7 @@
 #include "Files.hpp"
 #include "PartSet.hpp"
 #include "PictureParts.hpp"
+#include "ProgramFiles.hpp"
 
 namespace ortung::app {
 namespace {
@@ -89,7 +90,7 @@ TEST_F(PartSetTest, RefusesHeadsThatMakeNoSense) {
     return whyNot({folder_ / "bad"});
   };
   const std::string good =
-      R"("format":"ortung part 1","kind":"k","version":"v","job":{},"needs":{},"inputs":{})";
+      R"("format":"ortung part 1","kind":"k","version":"v","job":{},"needs":{},"inputs":{},"programs":{})";
   EXPECT_NE(written("").find("can't be read"), std::string::npos);
   EXPECT_NE(written("[]").find("is no part"), std::string::npos);
   EXPECT_NE(written(R"({"format":"ortung part 2"})").find("is no part"), std::string::npos);
@@ -99,6 +100,35 @@ TEST_F(PartSetTest, RefusesHeadsThatMakeNoSense) {
             std::string::npos);
   EXPECT_NE(written("{" + good + R"(,"shard":"1","shards":1})").find("can't be read"),
             std::string::npos);
+}
+
+// Two builds of one version: a head tells of one library that is another one.
+TEST_F(PartSetTest, RefusesPartsOfAnotherBuild) {
+  const auto made = [&](const std::string& name, std::uint64_t number, const std::string& digest) {
+    TableWriter writer(folder_ / name);
+    writer.addText("part.json",
+                   R"({"format":"ortung part 1","kind":"k","version":")" + PartHead::versionHere() +
+                       R"(","job":{},"needs":{},"inputs":{},"programs":{"libortung_mcl.so":")" +
+                       digest + R"("},"shard":)" + std::to_string(number) + R"(,"shards":3})");
+    writer.commit();
+    return folder_ / name;
+  };
+  EXPECT_EQ(whyNot({made("a", 1, "one"), made("b", 2, "one"), made("c", 3, "one")}), "");
+  EXPECT_EQ(whyNot({made("a", 1, "one"), made("b", 2, "one"), made("d", 3, "two")}),
+            (folder_ / "d").string() +
+                ": was made by another libortung_mcl.so than the others (digest two, not one)\n"
+                "missing: 3/3");
+}
+
+TEST_F(PartSetTest, KnowTheLibrariesThatMadeThem) {
+  const PartSet set({part("a", head(1, 1))});
+  const auto container = set.head().programs.lower_bound("libortung_container.so");
+  ASSERT_NE(container, set.head().programs.end());
+  EXPECT_TRUE(container->first.starts_with("libortung_container.so")) << container->first;
+  for (const auto& [name, digest] : set.head().programs)
+    EXPECT_EQ(digestOfProgramFile(name), digest) << name;
+  EXPECT_EQ(digestOfProgramFile("libortung_nobody.so"), "missing");
+  EXPECT_EQ(digestOfProgramFile("../lib/" + container->first), "missing");
 }
 
 TEST_F(PartSetTest, RunsMustBeTheirShards) {
