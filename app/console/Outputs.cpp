@@ -74,6 +74,8 @@ Signature signatureOf(OutputKind kind) {
       return {"an MCAP file", "\x89MCAP0\r\n", ""};
     case OutputKind::kSweepCsv:
       return {"a table of `ortung sweep`", "", ",tasks,done,"};
+    case OutputKind::kSweepJson:
+      return {"figures of `ortung sweep`", "{", "\"ortung sweep figures"};
     case OutputKind::kSweepPage:
       return {"a page of `ortung sweep`", "<!doctype html>", "<title>Sweep "};
     case OutputKind::kSettings:

@@ -30,6 +30,7 @@ enum class OutputKind : std::uint8_t {
   kRawlog,      ///< rawlogs and grid maps of MRPT
   kMcap,        ///< messages of ROS 2
   kSweepCsv,    ///< CSV of sweep
+  kSweepJson,   ///< JSON of sweep
   kSweepPage,   ///< HTML of sweep
   kSettings,    ///< worlds, their maps, and robots: users edit them, so they need --force, too
 };

@@ -161,6 +161,7 @@ int runSweepTable(const SweepTableArguments& arguments) {
       if (key != "seed") keys.push_back(key);
   Outputs outputs(arguments.force);
   outputs.writes("--csv", arguments.csv, OutputKind::kSweepCsv);
+  outputs.writes("--json", arguments.json, OutputKind::kSweepJson);
   outputs.writes("--html", arguments.html, OutputKind::kSweepPage);
   SweepStore store(arguments.dir, sweep);
   store.look();
@@ -168,6 +169,7 @@ int runSweepTable(const SweepTableArguments& arguments) {
       tableOf(store, sweep, keys,
               arguments.figures.empty() ? usualFigures(sweep.command()) : arguments.figures);
   outputs.write(arguments.csv, toCsv(table));
+  if (!arguments.json.empty()) outputs.write(arguments.json, allFigures(store, sweep));
   outputs.write(arguments.html, toHtml(table, arguments.dir.filename().string()));
   fmt::print("{}", toMarkdown(table));
   if (!table.missing.empty())

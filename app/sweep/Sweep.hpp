@@ -37,6 +37,7 @@ struct SweepTableArguments {
   std::vector<std::string> by;       ///< keys that are kept; none: all but "seed"
   std::vector<std::string> figures;  ///< paths in the figures; none: the usual ones
   std::filesystem::path csv;         ///< CSV to write; "": none
+  std::filesystem::path json;        ///< all figures to write; "": none
   std::filesystem::path html;        ///< page to write; "": none
   bool force = false;                ///< whether to overwrite files of other kinds
 };

@@ -45,6 +45,7 @@ void addTable(Builder& build) {
               "Figures as in the JSON, e.g. lost_share,at_corrections.nees_mean")
       .splitsAt(',');
   build.option("--csv", a->csv, "Also write the table as CSV, with standard errors");
+  build.option("--json", a->json, "Also write all figures of each task");
   build.option("--html", a->html, "Also write a page with curves and error bars");
   build.flag("--force", a->force, kForce);
 }

@@ -128,6 +128,23 @@ SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::s
   return table;
 }
 
+std::string allFigures(SweepStore& store, const SweepFile& sweep) {
+  std::string text = "{\n\"format\": \"ortung sweep figures 1\",\n\"tasks\": [";
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    const SweepTask task = sweep.task(i);
+    Json values = Json::object();
+    for (std::size_t k = 0; k < sweep.keys().size(); ++k) values[sweep.keys()[k]] = task.values[k];
+    const bool isDone = store.resultOf(task).state == SweepStore::State::kDone;
+    const auto dumped = [](const Json& json) {
+      return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+    };
+    text += fmt::format("{}\n{{\"task\": {}, \"values\": {}, \"figures\": {}}}", i > 0 ? "," : "",
+                        dumped(task.name), dumped(values),
+                        isDone ? dumped(Json::parse(store.figuresOf(task))) : "null");
+  }
+  return text + "\n]\n}\n";
+}
+
 std::string toMarkdown(const SweepTable& table) {
   std::string text = "|";
   for (const std::string& key : table.keys) text += " " + inMarkdown(key) + " |";

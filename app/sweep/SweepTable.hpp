@@ -37,6 +37,11 @@ std::vector<std::string> usualFigures(const std::string& command);
 SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::string> keys,
                    std::vector<std::string> figures);
 
+/// Returns all that the commands of tasks would have written, as JSON: {"format", "tasks":
+/// [{"task", "values": {key: name}, "figures"}]}, in the order of the sweep; "figures" is null
+/// where there is no result.
+std::string allFigures(SweepStore& store, const SweepFile& sweep);
+
 std::string toMarkdown(const SweepTable& table);
 std::string toCsv(const SweepTable& table);
 /// Writes a page that needs no other file: the table, and for each figure a curve with error bars

@@ -1,6 +1,7 @@
 // Sweeps as a user, a cluster, and bad luck run them.
 #include <algorithm>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
 
@@ -171,7 +172,7 @@ TEST_F(Sweep, TasksThatFailAreNamedWithWhatTheySaid) {
 TEST_F(Sweep, AveragesAndWritesPages) {
   ASSERT_EQ(run("all", {"--shard", "1/2"}).exitCode, 0);
   const Outcome outcome = sweep({"table", path("all"), "--figures", "position_rmse_m,lost_share",
-                                 "--html", path("all.html")});
+                                 "--html", path("all.html"), "--json", path("all.json")});
   ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("| n | done | position_rmse_m | lost_share |"), std::string::npos);
   EXPECT_NE(outcome.out.find("| 100 | 3 of 5 | "), std::string::npos) << outcome.out;
@@ -179,6 +180,18 @@ TEST_F(Sweep, AveragesAndWritesPages) {
   EXPECT_NE(outcome.err.find("5 of 10 tasks have no result, e.g. n=100,seed=2"), std::string::npos)
       << outcome.err;
   EXPECT_NE(read("all.html").find("<svg"), std::string::npos);
+  const nlohmann::json figures = nlohmann::json::parse(read("all.json"));
+  ASSERT_EQ(figures["tasks"].size(), 10u);
+  std::size_t done = 0;
+  for (const auto& task : figures["tasks"]) {
+    EXPECT_EQ(task["task"], "n=" + task["values"]["n"].get<std::string>() +
+                                ",seed=" + task["values"]["seed"].get<std::string>());
+    if (task["figures"].is_null()) continue;
+    ++done;
+    EXPECT_GT(task["figures"]["position_rmse_m"].get<double>(), 0.0);
+    EXPECT_EQ(task["figures"]["seed"].dump(), task["values"]["seed"].get<std::string>());
+  }
+  EXPECT_EQ(done, 5u);
   expectRefused(sweep({"table", path("all"), "--by", "x"}), 2, "ortung sweep table: --by is 'x'",
                 {});
   expectRefused(sweep({"status", path("none")}), 1, "ortung sweep status: ", {"no folder"});

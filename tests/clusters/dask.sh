@@ -7,7 +7,7 @@ export PYTHONPATH=$3 ORTUNG_PROGRAM=$1 PYTHONDONTWRITEBYTECODE=1
 source "$project/tests/clusters/lib.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-make_sweep "$folder"
+make_sweep "$folder" 20
 # Dask's own dashboard would want a port that may be taken.
 export DASK_DISTRIBUTED__SCHEDULER__DASHBOARD__STATUS__TASK_STREAM_LENGTH=0 DASK_TEMPORARY_DIRECTORY=$folder/dask
 /usr/bin/python3 "$project/examples/cluster/dask_sweep.py" sweep.toml many 6 > table.md 2> dask.log &

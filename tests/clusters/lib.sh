@@ -1,11 +1,13 @@
 # What the tests of launchers have in common. Needs $program and $project.
-# A sweep of twelve evaluations in the folder $1, with tables; the table of one process is one.csv.
+# make_sweep FOLDER SECONDS [OPTION...]  a sweep of twelve evaluations of so many seconds in the folder, with tables that are learned with these
+# options, and in one.csv what one process makes of it. Leaves the words that have learned the tables in `learning`.
 make_sweep() {
   cd "$1"
   local world=$project/maps/fields/f2000.toml robot=$project/maps/robots/pioneer.toml
-  "$program" learn --world "$world" --robot "$robot" --out field.ortung > /dev/null
+  learning=(learn --world "$world" --robot "$robot" "${@:3}")
+  "$program" "${learning[@]}" --out field.ortung > /dev/null
   cat > sweep.toml <<S
-command = ["eval", "--source", "sim:$world?duration=20&seed={seed}", "--robot", "$robot", "--tables", "field.ortung",
+command = ["eval", "--source", "sim:$world?duration=$2&seed={seed}", "--robot", "$robot", "--tables", "field.ortung",
            "--set", "mcl.particles={particles}", "--seed", "{seed}", "--no-times"]
 [vary]
 particles = [1000, 5000]
@@ -23,12 +25,14 @@ check_sweep() {
   [[ -z $(ls "$1/tasks" "$1/failed" | grep -v : || true) ]]
 }
 
-# Kills the first process that runs a task of the sweep in the folder $1, once there is one.
+# Kills the first process that runs a task of the sweep in the folder $1 of the working folder, once there is one. Other tests have sweeps
+# of that name, too.
 kill_a_task() {
   local victim=
   for _ in $(seq 200); do
-    victim=$(pgrep -f "^$program sweep run .*--dir $1 " | head -1 || true)
-    [[ -n $victim ]] && kill -9 "$victim" && echo "killed process $victim" && return
+    for victim in $(pgrep -f "^$program sweep run .*--dir [^ ]*$1 "); do
+      [[ $(readlink "/proc/$victim/cwd") == "$PWD" ]] && kill -9 "$victim" && echo "killed process $victim" && return
+    done
     sleep 0.05
   done
   return 1

@@ -7,7 +7,7 @@ command -v parallel > /dev/null && parallel --version < /dev/null 2> /dev/null |
 source "$project/tests/clusters/lib.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-make_sweep "$folder"
+make_sweep "$folder" 20
 export ORTUNG=$program HOME=$folder
 "$project/examples/cluster/parallel.sh" sweep.toml many 6 -j 2 &
 launcher=$!
