@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 import shutil
 import subprocess
 import tempfile
 from typing import Any, Dict, List, Optional, Sequence
 
-__all__ = ["SweepError", "plan", "run", "run_shard", "table", "table_text"]
+__all__ = ["SweepError", "figures", "plan", "run", "run_shard", "table", "table_text"]
 
 
 class SweepError(RuntimeError):
@@ -66,6 +67,17 @@ def table(folder: str, by: Sequence[str] = (), figures: Sequence[str] = ()) -> L
         _ortung("sweep", "table", folder, "--csv", name, *_options(by, figures))
         with open(name, encoding="utf-8", newline="") as file:
             return list(csv.DictReader(io.StringIO(file.read())))
+
+
+def figures(folder: str) -> List[Dict[str, Any]]:
+    """Returns what there is of each task, in the order of the sweep: its name ("task"), the names of its "values" by key, and all
+    "figures" that its command has written, None if it is not done."""
+    with tempfile.TemporaryDirectory(prefix="ortung-sweep-") as scratch:
+        name = os.path.join(scratch, "figures.json")
+        _ortung("sweep", "table", folder, "--json", name)
+        with open(name, encoding="utf-8") as file:
+            tasks: List[Dict[str, Any]] = json.load(file)["tasks"]
+            return tasks
 
 
 def _options(by: Sequence[str], figures: Sequence[str]) -> List[str]:
