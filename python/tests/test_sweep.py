@@ -12,7 +12,7 @@ MAPS = pathlib.Path(sys.argv.pop())
 PROGRAM = sys.argv.pop()
 
 SWEEP = """
-command = ["eval", "--source", "sim:{maps}/fields/f2000.toml?duration=2", "--robot", "{maps}/robots/pioneer_posts.toml",
+command = ["eval", "--source", "sim:{maps}/fields/f2000.toml?duration=10", "--robot", "{maps}/robots/pioneer_posts.toml",
            "--tables", "field.ortung", "--set", "mcl.particles={{n}}", "--seed", "{{seed}}", "--start", "truth", "--no-times"]
 [vary]
 n = [100, 300]
