@@ -2,8 +2,6 @@
 
 The same recorded drives for all rows of a table; models are learned from other drives, or another part of the log.
 """
-import concurrent.futures
-import json
 import os
 import re
 
@@ -28,35 +26,27 @@ def sensors_of(text, plugins):
     return "".join(p for p in parts if not p.startswith("[[sensor]]") or any(k in p for k in kept))
 
 
-def with_samples(text, samples):
-    return re.sub(r"(?ms)^\[mcl\]\n.*?(?=^\[|\Z)", "", text) + "\n[mcl]\nparticles = %d\nmin_particles = %d\n" % (samples, samples)
-
-
-def row(tools, name, models, samples, robot, tables, sources, extra):
+def row(tools, name, models, samples, runs):
     """Means over the runs that converged; those that did not are counted."""
-    file = robot + ".json"
-    tools.run([tools.ortung, "eval", *[w for s in sources for w in ("--source", s)], "--robot", robot, "--tables", tables,
-               "--threads", "1", "--json", file, "--force", *extra])
-    runs = json.load(open(file))["runs"]
     good = [r for r in runs if r["converged_after_s"] is not None]
     m = lambda key: tools.mean([r[key] for r in good])
     nees = m("nees_mean")  # millions of a pose that is sure of the wrong half
-    return "| %s | %s | %d | %d of %d | %d | %.1f | %.3f | %.3f | %.2f | %.3f | %s | %.2f |" % (
+    return "| %s | %s | %s | %d of %d | %d | %.1f | %.3f | %.3f | %.2f | %.3f | %s | %.2f |" % (
         name, models, samples, len(good), len(runs), sum(r["lost_share"] == 0 for r in good), m("converged_after_s"),
         m("position_median_m"), m("position_rmse_m"), m("heading_rmse_deg"), m("lost_share"), ("%.1f" if nees < 1e3 else "%.0e") % nees, m("update_ms_p50"))
 
 
-def table(tools, title, base, robots, tables, sources, extra=()):
-    """A row for each (sensors, models, text of the robot file) and number of samples, as many at a time as there are cores."""
-    jobs = []
+def table(tools, title, base, robots, tables, source, seeds):
+    """A row for each (sensors, models, text of the robot file) and number of samples. @param source with {seed}, if drives differ"""
+    files = []
     for name, models, text in robots:
-        for samples in SAMPLES:
-            robot = "%s-%s-%s-%d.toml" % (base, re.sub(r"\W", "_", name), re.sub(r"\W", "_", models), samples)
-            with open(robot, "w") as out:
-                out.write(with_samples(text, samples))
-            jobs.append((name, models, samples, robot))
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        rows = list(pool.map(lambda job: row(tools, *job, tables, sources, extra), jobs))
+        files.append({"name": "%s | %s" % (name, models), "file": "%s-%s-%s.toml" % (base, re.sub(r"\W", "_", name), re.sub(r"\W", "_", models))})
+        with open(files[-1]["file"], "w") as out:
+            out.write(re.sub(r"(?ms)^\[mcl\]\n.*?(?=^\[|\Z)", "", text))
+    command = ["eval", "--source", source, "--robot", "{robot.file}", "--tables", tables, "--set", "mcl.particles={samples}", "--set",
+               "mcl.min_particles={samples}", "--seed", "{seed}"]
+    found = tools.sweeps.groups(os.path.basename(base), command, {"robot": files, "samples": SAMPLES, "seed": "1..%d" % seeds})
+    rows = [row(tools, *robot.split(" | "), samples, runs) for (robot, samples), runs in found.items()]
     print("\n## %s\n\n%s\n%s" % (title, HEAD, "\n".join(rows)), flush=True)
 
 
@@ -85,8 +75,7 @@ def simulated(tools):
                                                          ["%s-%d.rec" % (base, s) for s in TRAINING], base)))
     robots = [(name, which, sensors_of(text, plugins)) for name, plugins in
               (("laser", ["lrf"]), ("landmarks", ["landmarks"]), ("both", ["lrf", "landmarks"])) for which, text in models]
-    table(tools, "Ablations: simulated robot", base, robots, base + ".ortung",
-          ["record:%s-%d.rec" % (base, seed) for seed in range(1, DRIVES + 1)])
+    table(tools, "Ablations: simulated robot", base, robots, base + ".ortung", "record:%s-{seed}.rec" % base, DRIVES)
 
 
 def logged(tools):
@@ -100,5 +89,4 @@ def logged(tools):
                                                          ["record:%s.rec?to_s=180" % base], base)))
     robots = [(name, which, sensors_of(text, plugins)) for name, plugins in
               (("laser", ["lrf"]), ("ranges", ["landmarks"]), ("both", ["lrf", "landmarks"])) for which, text in models]
-    table(tools, "Ablations: uwb_ro", base + "-ablation", robots, base + ".ortung", ["record:%s.rec?from_s=180" % base],
-          ["--runs", "3"])
+    table(tools, "Ablations: uwb_ro", base + "-ablation", robots, base + ".ortung", "record:%s.rec?from_s=180" % base, 3)

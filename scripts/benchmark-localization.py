@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 
+import sweeps
 from evaluate import LASER, import_laser, mean, run
 
 WINDOW_S = 30.0  # that a fault lasts
@@ -48,44 +49,45 @@ PARTS = ("tracking", "wake-ups", "kidnaps", "teleports", "faults")
 
 
 class Bench:
-    """Commands of `ortung eval`, as many at a time as there are cores, and what they gave."""
+    """Commands of `ortung eval` as sweeps, as many at a time as there are cores, and what they gave."""
 
     def __init__(self, ortung, out):
         self.ortung = ortung
         self.out = out
+        self.sweeps = sweeps.Sweeps(ortung, out, os.cpu_count())
         self.runs = []  # of all commands, as eval's JSON has them
         self.notes = []  # what went wrong
 
-    def eval(self, job):
-        """One command: its JSON, or text that says why there is none."""
-        base, number, arguments = job
-        file = "%s-bench-%d.json" % (base, number)
+    def evaluate(self, name, jobs):
+        """All jobs (base, arguments): their JSON, or None, in their order; notes why there is none. @param name of the sweep"""
+        words = [["--source", "record:" + base + ".rec", *arguments] for base, arguments in jobs]
+        unique = list(dict.fromkeys(" ".join(w) for w in words))  # of short logs some moments are the same
+        lists = {" ".join(w): w for w in words}
         # What a run of MCL gives does not depend on threads, and the cores are busy with others.
-        result = subprocess.run([self.ortung, "eval", "--source", "record:" + base + ".rec", "--threads", "1", "--json", file,
-                                 "--force", *arguments], capture_output=True, text=True)
-        if result.returncode != 0:
-            return result.stderr.strip().splitlines()[-1].removeprefix("ortung eval: ")
-        with open(file) as text:
-            found = json.load(text)
-        os.remove(file)
-        return found if "runs" in found else {"runs": [found], "summary": []}
-
-    def evaluate(self, jobs):
-        """All jobs (base, arguments): their JSON, or None, in their order; notes why there is none."""
-        numbered = [(base, i, arguments) for i, (base, arguments) in enumerate(jobs)]
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            found = list(pool.map(self.eval, numbered))
-        for (base, arguments), result in zip(jobs, found):
-            if isinstance(result, str):
-                self.notes.append("%s: %s" % (os.path.basename(base), result))
+        found = {}
+        for task in self.sweeps.tasks(name, ["eval", "{job}", "--threads", "1"], {"job": [lists[one] for one in unique]}):
+            found[task["values"]["job"]] = task
+        results = []
+        for (base, _), job in zip(jobs, words):
+            task = found[" ".join(job)]
+            figures = task["figures"]
+            if figures is None:
+                self.notes.append("%s: %s" % (os.path.basename(base), last_of(task.get("failed", "not done"))))
             else:
-                self.runs += result["runs"]
-        return [None if isinstance(result, str) else result for result in found]
+                figures = figures if "runs" in figures else {"runs": [figures], "summary": []}
+                self.runs += figures["runs"]
+            results.append(figures)
+        return results
 
     def tell_notes(self):
         for note in self.notes:
             print("- not run: %s" % note)
         self.notes = []
+
+
+def last_of(text):
+    """The last line of what a command said."""
+    return (text.strip().splitlines() or [""])[-1].removeprefix("ortung eval: ")
 
 
 def table(title, head, rows):
@@ -119,7 +121,7 @@ def tracking(bench, bases, cases):
     runs = cases or 5
     jobs = [(base, common(base) + ["--start", start, "--runs", str(runs)]) for base in bases for start in ("truth", "global")]
     rows = []
-    for (base, arguments), result in zip(jobs, bench.evaluate(jobs)):
+    for (base, arguments), result in zip(jobs, bench.evaluate("tracking", jobs)):
         if result is None:
             continue
         summary = result["summary"][0] if result["summary"] else None  # of one run there is none
@@ -145,7 +147,7 @@ def cases_of(bench, bases, title, arguments_of):
     rows = []
     failures = []
     events = right = 0
-    for (base, _), result in zip(jobs, bench.evaluate(jobs)):
+    for (base, _), result in zip(jobs, bench.evaluate(title.split(",")[0].lower(), jobs)):
         if result is None:
             continue
         name = os.path.basename(base)
@@ -247,9 +249,9 @@ def faults(bench, bases, cases):
     wrong_rows = []
     failures = []
     lengths = {base: duration(base) for base in bases}
+    jobs = []
+    owners = []
     for name, texts in FAULTS:
-        jobs = []
-        owners = []
         for base in bases:
             if texts is None:
                 other = without_walls(bench.ortung, base)
@@ -257,10 +259,12 @@ def faults(bench, bases, cases):
             else:
                 some = [(b, common(b) + a) for b, a in fault_jobs(base, lengths[base], texts, runs)]
             jobs += some
-            owners += [base] * len(some)
-        of = {base: [] for base in bases}
-        for base, result in zip(owners, bench.evaluate(jobs)):
-            of[base] += result["runs"] if result else []
+            owners += [(name, base)] * len(some)
+    found = {}
+    for owner, result in zip(owners, bench.evaluate("faults", jobs)):
+        found.setdefault(owner, []).extend(result["runs"] if result else [])
+    for name, _ in FAULTS:
+        of = {base: found.get((name, base), []) for base in bases}
         lost = []
         row = [name]
         for base in bases:
@@ -274,7 +278,6 @@ def faults(bench, bases, cases):
         lost_rows.append(row + ["%.3f / %.3f" % (mean(lost), max(lost)) if lost else "-",
                                 "%d of %d" % (sum(s == 0 for s in lost), len(lost))])
         wrong_rows.append([name] + [wrong(of[base]) for base in bases] + [wrong(all_runs)])
-        print("faults: %s done" % name, file=sys.stderr, flush=True)
     names = [os.path.basename(base) for base in bases]
     table("Faults: share of time lost, mean / worst of %d runs" % runs, ["fault", *names, "all", "never lost"], lost_rows)
     if any(column != "-" for row in wrong_rows for column in row[1:]):
@@ -346,6 +349,7 @@ def main():
     cases = arguments.cases or (2 if arguments.quick else None)
     if cases is not None and cases < 1:
         parser.error("--cases is %d, expected at least 1" % cases)
+    arguments.out = os.path.abspath(arguments.out)
     os.makedirs(arguments.out, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         bases = list(pool.map(lambda name: import_laser(arguments.ortung, arguments.data, arguments.out, name), logs))

@@ -5,6 +5,9 @@
 
 For each log it imports, learns (once a map) and evaluates from an unknown and a known start. --write puts each table behind its mark
 in the page, <!-- table: HEADING -->, part by part, so that what fails later leaves what was there. All parts take some hours.
+
+Evaluations are sweeps in OUT/sweeps: run again, the script goes on where it was. They may be run elsewhere before: `ortung sweep run
+OUT/sweeps/NAME.toml --dir OUT/sweeps/NAME --shard I/N` (docs/clusters.md).
 """
 import argparse
 import json
@@ -14,11 +17,12 @@ import shutil
 import statistics
 import subprocess
 import sys
-import tempfile
 import types
+import typing
 
 import ablations
 import results_page
+import sweeps
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MAPS = os.path.join(os.path.dirname(HERE), "maps")
@@ -54,20 +58,36 @@ def mean(values):
     return sum(values) / len(values) if values else float("nan")
 
 
-def evaluate(ortung, source, robot, tables, start, seeds, extra=()):
-    """One row: means over the seeds that converged."""
-    results = []
-    for seed in range(1, seeds + 1):
-        with tempfile.NamedTemporaryFile(suffix=".json") as out:
-            run([ortung, "eval", "--source", source.format(seed=seed), "--robot", robot, "--tables", tables,
-                 "--start", start, "--seed", str(seed), "--json", out.name, *extra])
-            results.append(json.load(open(out.name)))
-    good = [r for r in results if r["converged_after_s"] is not None]
+def row(start, runs):
+    """One row: means over the runs that converged."""
+    good = [r for r in runs if r["converged_after_s"] is not None]
     m = lambda key: mean([r[key] for r in good])
     return "| %s | %d | %d | %.1f | %.3f | %.3f | %.3f | %.2f | %.3f | %.1f | %.0f | %.2f | %.3f |" % (
-        start, seeds, len(good), m("converged_after_s"), m("position_median_m"), m("position_rmse_m"),
+        start, len(runs), len(good), m("converged_after_s"), m("position_median_m"), m("position_rmse_m"),
         m("position_p95_m"), m("heading_rmse_deg"), m("lost_share"), m("nees_mean"), m("particles_mean"),
         m("update_ms_p50"), mean([r["at_corrections"]["position_rmse_m"] for r in good]))
+
+
+class Case(typing.NamedTuple):
+    """What is evaluated from some starts with some seeds."""
+    name: str
+    source: str
+    robot: str
+    tables: str
+
+
+def evaluate(tools, name, cases, seeds, starts=("global",), extra=()):
+    """Prints a row for each case and start."""
+    command = ["eval", "--source", "{case.source}", "--robot", "{case.robot}", "--tables", "{case.tables}", "--start", "{start}", "--seed",
+               "{seed}", *extra]
+    found = tools.sweeps.groups(name, command, {"case": [one._asdict() for one in cases], "start": starts, "seed": sweeps.seeds(seeds)})
+    for (case, start), runs in found.items():
+        print("| %s %s" % (case, row(start, runs)), flush=True)
+
+
+def of_log(base, name, part=""):
+    """The case of an imported log with its own robot."""
+    return Case(name, "record:" + base + ".rec" + part, base + "-robot.toml", base + ".ortung")
 
 
 # Biases of a robot's camera are learned elsewhere: run and part, from which run and part, and what that says nothing of.
@@ -81,64 +101,65 @@ def import_mrclam(ortung, data, base, name, robot):
          "--world", base + ".toml", "--robot-file", base + "-robot.toml", "--force"])
 
 
-def mrclam(ortung, data, out, seeds):
+def mrclam(tools, seeds):
     print("\n## Landmarks: MRCLAM\n\n| run, robot " + HEAD + "\n" + RULE, flush=True)
+    cases = []
     missing = set()
     for name in ("ds6", "ds1", "ds2", "ds3"):
-        tables = os.path.join(out, name + ".ortung")
+        tables = os.path.join(tools.out, name + ".ortung")
         for robot in range(1, 6):
-            folder = os.path.join(data, "utias_mrclam", name)
-            if not os.path.exists(os.path.join(folder, "Robot%d_Odometry.dat.xz" % robot)):
+            if not os.path.exists(os.path.join(tools.data, "utias_mrclam", name, "Robot%d_Odometry.dat.xz" % robot)):
                 print("| %s, %d | no odometry in the data |" % (name, robot))
                 missing.add((name, robot))
                 continue
-            base = os.path.join(out, "%s-%d" % (name, robot))
-            import_mrclam(ortung, data, base, name, robot)
+            base = os.path.join(tools.out, "%s-%d" % (name, robot))
+            import_mrclam(tools.ortung, tools.data, base, name, robot)
             if robot == 1:
-                run([ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", tables,
+                run([tools.ortung, "learn", "--world", base + ".toml", "--robot", base + "-robot.toml", "--out", tables,
                      "--cell", "0.05"])
-            print("| %s, %d %s" % (name, robot, evaluate(ortung, "record:" + base + ".rec", base + "-robot.toml",
-                                                         tables, "global", seeds)), flush=True)
-    mrclam_learned(ortung, out, seeds, missing)
+            cases.append(of_log(base, "%s, %d" % (name, robot))._replace(tables=tables))
+    evaluate(tools, "mrclam", cases, seeds)
+    mrclam_learned(tools, seeds, missing)
 
 
-def mrclam_learned(ortung, out, seeds, missing=frozenset()):
+def mrclam_learned(tools, seeds, missing):
     """With biases of each camera that another run, or half of one, has told; of halves also without."""
     print("\n## Landmarks: MRCLAM with learned biases\n\n| run, robot, learned from " + HEAD + "\n" + RULE, flush=True)
+    cases = []
     for name, part, other, other_part, fixed in MRCLAM_LEARNED:
-        tables = os.path.join(out, name + ".ortung")
+        tables = os.path.join(tools.out, name + ".ortung")
         for robot in range(1, 6):
             if (name, robot) in missing or (other, robot) in missing:
                 continue
-            base = os.path.join(out, "%s-%d" % (other, robot))
-            learned = base + "-learned.toml"
-            run([ortung, "calibrate", "noise", "record:" + base + ".rec" + other_part, "--robot", base + "-robot.toml", "--tables",
-                 os.path.join(out, other + ".ortung"), "--fixed", fixed, "--out", learned, "--force"])
-            source = "record:" + os.path.join(out, "%s-%d.rec" % (name, robot)) + part
+            base = os.path.join(tools.out, "%s-%d" % (other, robot))
+            learned = "%s-learned-for-%s.toml" % (base, name)
+            run([tools.ortung, "calibrate", "noise", "record:" + base + ".rec" + other_part, "--robot", base + "-robot.toml", "--tables",
+                 os.path.join(tools.out, other + ".ortung"), "--fixed", fixed, "--out", learned, "--force"])
+            own = os.path.join(tools.out, "%s-%d" % (name, robot))
+            case = Case("%s, %d, -" % (name + part, robot), "record:" + own + ".rec" + part, base + "-robot.toml", tables)
             if part:
-                print("| %s, %d, - %s" % (name + part, robot, evaluate(ortung, source, base + "-robot.toml", tables, "global",
-                                                                      seeds)), flush=True)
-            print("| %s, %d, %s %s" % (name + part, robot, other + other_part,
-                                       evaluate(ortung, source, learned, tables, "global", seeds)), flush=True)
+                cases.append(case)
+            cases.append(case._replace(name="%s, %d, %s" % (name + part, robot, other + other_part), robot=learned))
+    evaluate(tools, "mrclam-learned", cases, seeds)
 
 
-def lookalikes(ortung, data, out, seeds):
+def lookalikes(tools, seeds):
     """Landmarks that nobody tells apart: reflectors alone and beside a laser, cylinders in scans."""
     print("\n## Landmarks without identity\n\n| log " + HEAD + "\n" + RULE, flush=True)
-    folder = os.path.join(data, "crob_lab_jarvis")
-    base = import_beacons(ortung, out, "reflectors", "scanlog", os.path.join(folder, "complex_path_fast/security"),
+    folder = os.path.join(tools.data, "crob_lab_jarvis")
+    base = import_beacons(tools.ortung, tools.out, "reflectors", "scanlog", os.path.join(folder, "complex_path_fast/security"),
                           ["%s=%s" % (key, os.path.join(folder, file)) for key, file in
                            (("map", "map_security_from_complex.yaml"), ("odom", "complex_path_fast/odom.txt.xz"),
                             ("reflectors", "complex_path_fast/reflectors.txt.xz"), ("reflector_map", "reflector_map.txt"))])
     head, odometry, scanner, reflectors = open(base + "-robot.toml").read().split("[[sensor]]")
+    cases = []
     for name, sensors in (("reflectors", [reflectors]), ("laser", [scanner]), ("both", [scanner, reflectors])):
         with open(base + "-%s.toml" % name, "w") as robot:
             robot.write("[[sensor]]".join([head, odometry, *sensors]))
-        print("| jarvis, %s %s" % (name, evaluate(ortung, "record:%s.rec" % base, base + "-%s.toml" % name,
-                                                  base + ".ortung", "global", seeds)), flush=True)
-    base = import_beacons(ortung, out, "lego", "lego", os.path.join(data, "lego_brenner/robot4"))
-    print("| lego %s" % evaluate(ortung, "record:%s.rec?from_s=27" % base, base + "-robot.toml", base + ".ortung",
-                                 "global", seeds), flush=True)
+        cases.append(of_log(base, "jarvis, " + name)._replace(robot=base + "-%s.toml" % name))
+    base = import_beacons(tools.ortung, tools.out, "lego", "lego", os.path.join(tools.data, "lego_brenner/robot4"))
+    cases.append(of_log(base, "lego", "?from_s=27"))
+    evaluate(tools, "lookalikes", cases, seeds)
 
 
 def import_laser(ortung, data, out, name):
@@ -161,15 +182,19 @@ def fixed_robot(base):
     return fixed
 
 
-def laser(ortung, data, out, seeds):
+def laser(tools, seeds):
     print("\n## Laser\n\n| log " + HEAD + "\n" + RULE, flush=True)
+    logs = []
     for name in LASER:
-        base = import_laser(ortung, data, out, name)
-        fixed = fixed_robot(base)
-        for start in ("global", "truth"):
-            for robot in (base + "-robot.toml", fixed):
-                print("| %s %s" % (name, evaluate(ortung, "record:" + base + ".rec", robot, base + ".ortung", start,
-                                                  seeds)), flush=True)
+        base = import_laser(tools.ortung, tools.data, tools.out, name)
+        fixed_robot(base)
+        logs.append({"name": name, "base": base})
+    command = ["eval", "--source", "record:{log.base}.rec", "--robot", "{log.base}-{set}.toml", "--tables", "{log.base}.ortung",
+               "--start", "{start}", "--seed", "{seed}"]
+    found = tools.sweeps.groups("laser", command, {"log": logs, "start": ["global", "truth"], "set": ["robot", "fixed"],
+                                                   "seed": sweeps.seeds(seeds)})
+    for (log, start, _), runs in found.items():
+        print("| %s %s" % (log, row(start, runs)), flush=True)
 
 
 # Beacon 1 of uwb_ro is wrong for minutes, 39 % of all; the others err by 0.1 m. Fitted to the first half of the log.
@@ -216,71 +241,81 @@ def import_uwb_ro(ortung, data, out):
     return base
 
 
-def uwb_ro(ortung, data, out, seeds):
+def uwb_ro(tools, seeds):
     """Laser, ranges and both; then where the laser has a scan in ten."""
-    base = import_uwb_ro(ortung, data, out)
-    for fault in ((), ("--fault", "laser/LRF/scan=drop:0.9"), ("--fault", "laser/LRF/scan=missing@30-90")):
-        for name in ("laser", "ranges", "both"):
-            if fault and name == "ranges":
-                continue
-            print("| uwb_ro, %s %s %s" % (name, ", ".join(fault[1:]),
-                  evaluate(ortung, "record:%s.rec?from_s=180" % base, base + "-%s.toml" % name, base + ".ortung", "global",
-                           seeds, fault)), flush=True)
+    base = import_uwb_ro(tools.ortung, tools.data, tools.out)
+    for number, fault in enumerate(((), ("--fault", "laser/LRF/scan=drop:0.9"), ("--fault", "laser/LRF/scan=missing@30-90"))):
+        cases = [of_log(base, "uwb_ro, %s %s" % (name, ", ".join(fault[1:])), "?from_s=180")._replace(robot=base + "-%s.toml" % name)
+                 for name in ("laser", "ranges", "both") if not (fault and name == "ranges")]
+        evaluate(tools, "uwb_ro-%d" % number, cases, seeds, extra=fault)
 
 
-def beacons(ortung, data, out, seeds):
+def beacons(tools, seeds):
     print("\n## Ranges and bearings of beacons\n\n| log " + HEAD + "\n" + RULE, flush=True)
-    uwb_ro(ortung, data, out, seeds)
-    plaza = import_beacons(ortung, out, "plaza", "plaza", os.path.join(data, "plaza"), cell="0.5")
-    uwbpose = import_beacons(ortung, out, "uwbpose", "uwbpose", os.path.join(data, "uwb_planar_pose"),
+    uwb_ro(tools, seeds)
+    plaza = import_beacons(tools.ortung, tools.out, "plaza", "plaza", os.path.join(tools.data, "plaza"), cell="0.5")
+    uwbpose = import_beacons(tools.ortung, tools.out, "uwbpose", "uwbpose", os.path.join(tools.data, "uwb_planar_pose"),
                              ["range_bias_m=0.19"])
-    for name, base, begin in (("plaza", plaza, 970), ("uwbpose", uwbpose, 65)):
-        print("| %s %s" % (name, evaluate(ortung, "record:%s.rec?from_s=%d" % (base, begin), base + "-robot.toml",
-                                          base + ".ortung", "global", seeds)), flush=True)
+    cases = [of_log(plaza, "plaza", "?from_s=970"), of_log(uwbpose, "uwbpose", "?from_s=65")]
     for x in (1.5, 3.0, 4.5):
         for y in (1.5, 3.0, 4.5):
-            base = import_beacons(ortung, out, "roh", "roh", os.path.join(data, "roh_bearings/(X%.1f,Y%.1f).csv" % (x, y)),
-                                  cell="0.05")
-            print("| roh, %.1f m, %.1f m %s" % (x, y, evaluate(ortung, "record:%s.rec" % base, base + "-robot.toml",
-                                                              base + ".ortung", "global", seeds)), flush=True)
+            base = import_beacons(tools.ortung, tools.out, "roh-%.1f-%.1f" % (x, y), "roh",
+                                  os.path.join(tools.data, "roh_bearings/(X%.1f,Y%.1f).csv" % (x, y)), cell="0.05")
+            cases.append(of_log(base, "roh, %.1f m, %.1f m" % (x, y)))
+    evaluate(tools, "beacons", cases, seeds)
 
 
-def sim(ortung, _, out, seeds):
+class Setup(typing.NamedTuple):
+    """A simulated robot on a field."""
+    name: str
+    field: str
+    robot: str
+    world: str
+    tables: str
+
+
+def setups(tools, pairs):
+    """Robots on fields, with their tables."""
+    made = []
+    for robot, field in pairs:
+        setup = Setup("%s, %s" % (robot, field), field, os.path.join(MAPS, "robots", robot + ".toml"),
+                      os.path.join(MAPS, "fields", field + ".toml"), os.path.join(tools.out, robot + ".ortung"))
+        run([tools.ortung, "learn", "--world", setup.world, "--robot", setup.robot, "--out", setup.tables, "--force"])
+        made.append(setup)
+    return made
+
+
+# A laser alone can't tell the halves of the bare field apart (see the world's comment).
+SETUPS = (("pioneer_lrf", "f2000_hall"), ("pioneer_posts", "f2000"), ("pioneer", "f2000"))
+DRIVE = ["eval", "--source", "sim:{setup.world}?duration=60&seed={seed}", "--robot", "{setup.robot}", "--tables", "{setup.tables}",
+         "--seed", "{seed}"]
+
+
+def sim(tools, seeds):
     print("\n## Simulated soccer field, 60 s, a new drive for each seed\n\n| robot, field " + HEAD + "\n" + RULE, flush=True)
-    # A laser alone can't tell the halves of the bare field apart (see the world's comment).
-    for name, field in (("pioneer_lrf", "f2000_hall"), ("pioneer_posts", "f2000"), ("pioneer", "f2000")):
-        world = os.path.join(MAPS, "fields", field + ".toml")
-        robot = os.path.join(MAPS, "robots", name + ".toml")
-        tables = os.path.join(out, name + ".ortung")
-        run([ortung, "learn", "--world", world, "--robot", robot, "--out", tables])
-        print("| %s, %s %s" % (name, field, evaluate(ortung, "sim:" + world + "?duration=60&seed={seed}", robot, tables,
-                                          "global", seeds)), flush=True)
+    found = tools.sweeps.groups("sim", DRIVE, {"setup": [one._asdict() for one in setups(tools, SETUPS)], "seed": sweeps.seeds(seeds)})
+    for (setup,), runs in found.items():
+        print("| %s %s" % (setup, row("global", runs)), flush=True)
 
 
-def bound(ortung, _, out, seeds):
+def bound(tools, seeds):
     """Errors of simulated robots beside the Cramer-Rao bound, as medians over the drives."""
     print("\n## The bound\n\n| robot, field | drives | bound: median [m] | RMSE [m] | heading RMSE [deg] | error at updates: median [m] | "
           "RMSE [m] | ratio of medians | of RMSE |\n|" + "---|" * 9, flush=True)
-    for name, field in (("pioneer_lrf", "f2000_hall"), ("pioneer_posts", "f2000"), ("pioneer", "f2000"), ("sonar_ring", "f2000_hall")):
-        world = os.path.join(MAPS, "fields", field + ".toml")
-        robot = os.path.join(MAPS, "robots", name + ".toml")
-        tables = os.path.join(out, name + "-bound.ortung")
-        file = os.path.join(out, name + "-bound.json")
-        run([ortung, "learn", "--world", world, "--robot", robot, "--out", tables, "--force"])
-        start = "truth" if name == "sonar_ring" else "global"  # sixteen sonars take minutes to find a place
-        run([ortung, "eval", "--robot", robot, "--tables", tables, "--bound", world, "--start", start, "--json", file, "--force",
-             *[w for seed in range(1, seeds + 1) for w in ("--source", "sim:%s?duration=60&seed=%d" % (world, seed))]])
-        runs = json.load(open(file))["runs"]
+    # Sixteen sonars take minutes to find a place.
+    made = [{**one._asdict(), "start": "truth" if one.name.startswith("sonar") else "global"}
+            for one in setups(tools, (*SETUPS, ("sonar_ring", "f2000_hall")))]
+    command = [*DRIVE, "--start", "{setup.start}", "--bound", "{setup.world}"]
+    for (setup,), runs in tools.sweeps.groups("bound", command, {"setup": made, "seed": sweeps.seeds(seeds)}).items():
         good = [r for r in runs if r["converged_after_s"] is not None]
         m = lambda key: statistics.median([r[key] for r in good])
         at = lambda key: statistics.median([r["at_corrections"][key] for r in good])
-        print("| %s, %s | %d of %d | %.4f | %.4f | %.3f | %.4f | %.4f | %.1f | %.1f |" % (
-            name, field, len(good), len(runs), m("bound_median_m"), m("bound_rmse_m"), m("bound_heading_rmse_deg"),
+        print("| %s | %d of %d | %.4f | %.4f | %.3f | %.4f | %.4f | %.1f | %.1f |" % (
+            setup, len(good), len(runs), m("bound_median_m"), m("bound_rmse_m"), m("bound_heading_rmse_deg"),
             at("position_median_m"), at("position_rmse_m"), m("ratio_median"), m("ratio_rmse")), flush=True)
 
 
-def ablation(ortung, data, out, _):
-    tools = types.SimpleNamespace(ortung=ortung, data=data, out=out, maps=MAPS, run=run, mean=mean, import_uwb_ro=import_uwb_ro)
+def ablation(tools, _):
     ablations.simulated(tools)
     ablations.logged(tools)
 
@@ -290,55 +325,57 @@ FAULT_FROM = {"jarvis": 20, "sena_telecom": 20, "intel": 600, "fhw": 200}
 LATE_S = (0.5, 1, 2, 3)
 
 
-def lost_shares(ortung, base, faults):
-    """Share of the time lost of two runs from the truth, as text."""
-    file = base + "-lost.json"
-    run([ortung, "eval", "--source", "record:" + base + ".rec", "--robot", base + "-robot.toml", "--tables", base + ".ortung",
-         "--start", "truth", "--runs", "2", *[w for f in faults for w in ("--fault", f)], "--json", file, "--force"])
-    return " / ".join("never converged" if r["lost_share"] is None else "%.3g" % round(r["lost_share"], 3)
-                      for r in json.load(open(file))["runs"])
+def lost_shares(tools, name, pairs):
+    """Share of the time lost of two runs from the truth, as text, by (log, fault). @param pairs (log, base, fault)"""
+    cases = [{"name": "%s %s" % (log, fault), "base": base, "fault": fault} for log, base, fault in pairs]
+    command = ["eval", "--source", "record:{case.base}.rec", "--robot", "{case.base}-robot.toml", "--tables", "{case.base}.ortung",
+               "--start", "truth", "--seed", "{seed}", "--fault", "{case.fault}"]
+    found = tools.sweeps.groups(name, command, {"case": cases, "seed": sweeps.seeds(2)})
+    return {(log, fault): " / ".join("never converged" if r["lost_share"] is None else "%.3g" % round(r["lost_share"], 3)
+                                     for r in found["%s %s" % (log, fault),]) for log, _, fault in pairs}
 
 
-def faults(ortung, data, out, _):
+FAULTS = (("readings=crowd", 30), ("readings=frozen", 30), ("readings=missing", 30), ("odometry=slip", 4), ("odometry=reverse", 4),
+          ("odometry=none", None), ("odometry=zero", None))
+LATE_LOGS = ("intel", "belgioioso", "sena_telecom", "jarvis", "fhw", "freiburg-079", "aces")
+
+
+def faults(tools, _):
     """Constructed faults at fixed times, and late stamps, seeds 1 and 2."""
-    bases = {name: import_laser(ortung, data, out, name) for name in FAULT_FROM}
-    print("\n## Constructed faults\n\n| fault | %s |\n|%s" % (" | ".join(bases), "---|" * (len(bases) + 1)), flush=True)
-    for what, seconds in (("readings=crowd", 30), ("readings=frozen", 30), ("readings=missing", 30), ("odometry=slip", 4),
-                          ("odometry=reverse", 4), ("odometry=none", None), ("odometry=zero", None)):
-        cells = [lost_shares(ortung, base, [what + ("@%d-%d" % (FAULT_FROM[n], FAULT_FROM[n] + seconds) if seconds else "")])
-                 for n, base in bases.items()]
+    bases = {name: import_laser(tools.ortung, tools.data, tools.out, name) for name in dict.fromkeys((*FAULT_FROM, *LATE_LOGS))}
+    text = lambda what, seconds, log: what + ("@%d-%d" % (FAULT_FROM[log], FAULT_FROM[log] + seconds) if seconds else "")
+    found = lost_shares(tools, "constructed-faults", [(log, bases[log], text(*fault, log)) for fault in FAULTS for log in FAULT_FROM])
+    print("\n## Constructed faults\n\n| fault | %s |\n|%s" % (" | ".join(FAULT_FROM), "---|" * (len(FAULT_FROM) + 1)), flush=True)
+    for what, seconds in FAULTS:
+        cells = [found[log, text(what, seconds, log)] for log in FAULT_FROM]
         print("| `%s`, %s | %s |" % (what, "%d s" % seconds if seconds else "all the time", " | ".join(cells)), flush=True)
-    names = ("intel", "belgioioso", "sena_telecom", "jarvis", "fhw", "freiburg-079", "aces")
-    print("\n## Late stamps\n\n| late by | %s |\n|%s" % (" | ".join(names), "---|" * (len(names) + 1)), flush=True)
-    bases = [import_laser(ortung, data, out, name) for name in names]
+    found = lost_shares(tools, "late", [(log, bases[log], "readings=late:%g" % late) for late in LATE_S for log in LATE_LOGS])
+    print("\n## Late stamps\n\n| late by | %s |\n|%s" % (" | ".join(LATE_LOGS), "---|" * (len(LATE_LOGS) + 1)), flush=True)
     for late in LATE_S:
-        print("| %g s | %s |" % (late, " | ".join(lost_shares(ortung, b, ["readings=late:%g" % late]) for b in bases)), flush=True)
+        print("| %g s | %s |" % (late, " | ".join(found[log, "readings=late:%g" % late] for log in LATE_LOGS)), flush=True)
 
 
-def trust(ortung, data, out, _):
+def trust(tools, _):
     """Wake-ups, kidnaps, teleports and faults at other moments."""
     script = os.path.join(HERE, "benchmark-localization.py")
-    common = [sys.executable, script, ortung, data, "--out", out]
+    common = [sys.executable, script, tools.ortung, tools.data, "--out", tools.out]
     print(run([*common, "--only", "wake-ups,kidnaps", "--cases", "20"]), end="")
     print(run([*common, "--only", "teleports", "--cases", "6", "--logs", "intel,belgioioso,jarvis,fhw"]), end="")
     print(run([*common, "--only", "faults", "--cases", "2", "--logs", "intel,belgioioso,jarvis,fhw,sena_telecom"]), end="", flush=True)
 
 
-def ours_beside(ortung, data, out, logs):
+def ours_beside(tools, names):
     """Our figures with 10,000 samples by log: tracking from the truth, and how often an unknown start converged."""
-    found = {}
-    for name in logs:
-        base = import_laser(ortung, data, out, name)
-        fixed = fixed_robot(base)
-        for start in ("truth", "global"):
-            file = base + "-beside.json"
-            run([ortung, "eval", "--source", "record:" + base + ".rec", "--robot", fixed, "--tables", base + ".ortung", "--start", start,
-                 "--runs", "3", "--json", file, "--force"])
-            found[name, start] = json.load(open(file))["runs"]
-    return found
+    logs = []
+    for name in names:
+        base = import_laser(tools.ortung, tools.data, tools.out, name)
+        logs.append({"name": name, "base": base, "fixed": fixed_robot(base)})
+    command = ["eval", "--source", "record:{log.base}.rec", "--robot", "{log.fixed}", "--tables", "{log.base}.ortung", "--start", "{start}",
+               "--seed", "{seed}"]
+    return tools.sweeps.groups("beside", command, {"log": logs, "start": ["truth", "global"], "seed": sweeps.seeds(3)})
 
 
-def mrpt(ortung, data, out, _):
+def mrpt(tools, _):
     """MRPT's pf-localization, and ours with as many samples beside it."""
     if shutil.which("pf-localization") is None:
         print("\n## MRPT's pf-localization\n\nLeft out: pf-localization is not installed (Debian: mrpt-apps).")
@@ -346,8 +383,8 @@ def mrpt(ortung, data, out, _):
     theirs = []
     rows = []
     for samples, seeds, longest in ((2000, 2, 600), (10000, 1, 900)):
-        file = os.path.join(out, "mrpt-%d.json" % samples)
-        told = run([os.path.join(HERE, "compare-mrpt.sh"), data, "--samples", str(samples), "--seeds", str(seeds), "--jobs", "1",
+        file = os.path.join(tools.out, "mrpt-%d.json" % samples)
+        told = run([os.path.join(HERE, "compare-mrpt.sh"), tools.data, "--samples", str(samples), "--seeds", str(seeds), "--jobs", "1",
                     "--longest", str(longest), "--budget", "3600", "--json", file])
         lines = [line for line in told.splitlines() if line.startswith("|")]
         rows += lines if not rows else lines[2:]
@@ -355,7 +392,7 @@ def mrpt(ortung, data, out, _):
     print("\n## MRPT's pf-localization\n\n" + "\n".join(rows[:2] + sorted(rows[2:])))
     print("\n## Side by side\n\n| log | median, ours | MRPT | RMSE, ours | MRPT | lost, ours | MRPT | converged from an unknown start, "
           "ours | MRPT, 10,000 | MRPT, 2,000 |\n|" + "---|" * 10)
-    ours = ours_beside(ortung, data, out, dict.fromkeys(t["log"] for t in theirs))
+    ours = ours_beside(tools, dict.fromkeys(t["log"] for t in theirs))
     for log in dict.fromkeys(t["log"] for t in theirs):
         its = {(t["start"], t["samples"]): t["runs"] for t in theirs if t["log"] == log}
         tracked = [r for r in its.get(("truth", 10000), []) if r["converged_after"] is not None]
@@ -370,8 +407,8 @@ def mrpt(ortung, data, out, _):
                                              *[converged(its.get(("global", n), []), "converged_after") for n in (10000, 2000)]))
 
 
-def three_ways(ortung, *_):
-    print("\n## One robot, three ways\n\n" + run([sys.executable, os.path.join(HERE, "three-ways.py"), ortung]), end="", flush=True)
+def three_ways(tools, _):
+    print("\n## One robot, three ways\n\n" + run([sys.executable, os.path.join(HERE, "three-ways.py"), tools.ortung]), end="", flush=True)
 
 
 PARTS = {"sim": sim, "bound": bound, "ablations": ablation, "mrclam": mrclam, "beacons": beacons, "lookalikes": lookalikes, "laser": laser,
@@ -385,17 +422,22 @@ def main():
     parser.add_argument("data")
     parser.add_argument("--only", default=",".join(PARTS), help="of " + ", ".join(PARTS))
     parser.add_argument("--seeds", type=int, default=3, help="runs a row; the simulated ones get 20")
-    parser.add_argument("--out", default="out/evaluate")
+    parser.add_argument("--jobs", type=int, default=1, help="evaluations at a time; more of them take each other's time")
+    parser.add_argument("--out", default="out/evaluate", help="folder of records, tables, sweeps and their results")
     parser.add_argument("--write", metavar="FILE", help="put the tables into this page, in place of those that it has")
     arguments = parser.parse_args()
     parts = arguments.only.split(",")
     if unknown := [p for p in parts if p not in PARTS]:
         parser.error("--only is %s, expected some of %s" % (",".join(unknown), ", ".join(PARTS)))
-    os.makedirs(arguments.out, exist_ok=True)
+    out = os.path.abspath(arguments.out)
+    os.makedirs(out, exist_ok=True)
+    tools = types.SimpleNamespace(ortung=os.path.abspath(arguments.ortung), data=os.path.abspath(arguments.data), out=out,
+                                  maps=MAPS, run=run, mean=mean, import_uwb_ro=import_uwb_ro,
+                                  sweeps=sweeps.Sweeps(arguments.ortung, out, arguments.jobs))
     for part in parts:
         seeds = 20 if part in ("sim", "bound") else arguments.seeds
         with results_page.written(arguments.write):
-            PARTS[part](arguments.ortung, arguments.data, arguments.out, seeds)
+            PARTS[part](tools, seeds)
 
 
 if __name__ == "__main__":

@@ -122,9 +122,9 @@ def keeper_rows(result):
     return rows
 
 
-def goalkeepers(ortung, _, out, __):
-    file = os.path.join(out, "sees.json")
-    result = subprocess.run([ortung, "benchmark", "goalkeeper", "--keepers", "blocking,intercepting", "--sees",
+def goalkeepers(tools, _):
+    file = os.path.join(tools.out, "sees.json")
+    result = subprocess.run([tools.ortung, "benchmark", "goalkeeper", "--keepers", "blocking,intercepting", "--sees",
                              "truth,features,scan,localized", "--strikers", ",".join(STRIKERS), "--episodes", str(EPISODES),
                              "--threads", str(os.cpu_count()), "--json", file, "--force"], capture_output=True, text=True)
     if result.returncode != 0:

@@ -7,13 +7,13 @@ Each experiment changes one key of a robot file, or disturbs its readings, and e
 pictures go into pictures/ beside the page.
 """
 import argparse
-import concurrent.futures
 import json
 import os
 import re
 import sys
 
 import results_page
+import sweeps
 from evaluate import MAPS, mean, run
 
 HEAD = ("converged", "after [s]", "median [m]", "RMSE [m]", "heading RMSE [deg]", "lost", "NEES", "tracking", "samples")
@@ -77,41 +77,47 @@ def changed(text, keys):
 
 class Bench:
     def __init__(self, ortung, out, drives):
-        self.ortung, self.out, self.drives = ortung, out, drives
+        self.ortung, self.out, self.drives = os.path.abspath(ortung), os.path.abspath(out), drives
+        self.sweeps = sweeps.Sweeps(ortung, out, os.cpu_count())
 
     def files(self, setup):
-        """World, robot file's text and recorded drives."""
+        """World, robot file's text and what the names of recorded drives begin with."""
         robot, field = setup
         world = os.path.join(MAPS, "fields", field + ".toml")
-        file = os.path.join(self.out, robot + "-list.toml")  # all landmarks of a moment together, so that some may be false
+        base = os.path.join(self.out, robot)
+        file = base + "-list.toml"  # all landmarks of a moment together, so that some may be false
         with open(os.path.join(MAPS, "robots", robot + ".toml")) as shipped, open(file, "w") as out:
             out.write(shipped.read().replace('features = "each"', 'features = "list"'))
-        records = []
         for seed in range(1, self.drives + 1):
-            record = os.path.join(self.out, "%s-%d.rec" % (robot, seed))
+            record = "%s-%d.rec" % (base, seed)
             if not os.path.exists(record):
                 run([self.ortung, "import", "sim", world, "--with-robot", file, "--option", "duration=60", "--option",
                      "seed=%d" % seed, "--out", record])
-            records.append(record)
-        return world, file, open(file).read(), records
+        return world, file, open(file).read(), base
 
-    def evaluate(self, job):
-        """One row: cells, and what a report of the first drive draws."""
-        name, (robot, world, records, keys, extra, cell) = job
-        base = os.path.join(self.out, re.sub(r"\W+", "-", name))
-        with open(base + ".toml", "w") as file:
-            file.write(keys)
-        tables = os.path.join(self.out, "%s-%s.ortung" % (os.path.basename(robot), cell))
-        if name.startswith("Mount"):  # tables are of a sensor where it sits
-            robot, tables = base + ".toml", base + ".ortung"
+    def tables(self, name, world, robot, cell):
+        """Tables of a robot, which are learned once."""
+        tables = os.path.join(self.out, "%s-%s.ortung" % (name, cell))
         if not os.path.exists(tables):
             run([self.ortung, "learn", "--world", world, "--robot", robot, "--cell", cell, "--out", tables])
-        common = [self.ortung, "eval", "--robot", base + ".toml", "--tables", tables, "--threads", "1", "--force", *extra]
-        run([*common, *[w for r in records for w in ("--source", "record:" + r)], "--json", base + ".json"])
-        run([*common, "--source", "record:" + records[0], "--report", base + ".html"])
-        page = open(base + ".html").read()
+        return tables
+
+    def variant(self, name, number, world, robot, text, cell):
+        """A row's robot file and tables."""
+        base = os.path.join(self.out, "%s-%d" % (re.sub(r"\W+", "-", name), number))
+        with open(base + ".toml", "w") as file:
+            file.write(text)
+        if name == "Mount":  # tables are of a sensor where it sits
+            return base + ".toml", self.tables(os.path.basename(base), world, base + ".toml", cell)
+        return base + ".toml", self.tables(os.path.basename(robot), world, robot, cell)
+
+    def drawn(self, name, number, words, source):
+        """What a report of one drive draws."""
+        page_file = os.path.join(self.out, "%s-%d.html" % (re.sub(r"\W+", "-", name), number))
+        run([self.ortung, "eval", *words, "--source", source, "--force", "--report", page_file])
+        page = open(page_file).read()
         begin = page.index('id="data">') + len('id="data">')
-        return json.load(open(base + ".json"))["runs"], json.loads(page[begin:page.index("</script>", begin)])
+        return json.loads(page[begin:page.index("</script>", begin)])
 
 
 def row(runs):
@@ -162,21 +168,20 @@ def picture(file, kind, rows, chosen):
 
 def experiment(bench, name, pictures):
     setup, column, variants, chosen = EXPERIMENTS[name]
-    world, robot, text, records = bench.files(setup)
-    jobs = []
+    world, robot, text, base = bench.files(setup)
+    words = []  # of each row
     for i, (what, keys, extra) in enumerate(variants):
-        cell = what.split()[0] if name == "Cells" else "0.1"
-        jobs.append(("%s %d" % (name, i), (robot, world, records, changed(text, keys), extra, cell)))
-    bench.evaluate(jobs[0])  # learns the tables, before others want them at the same time
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = list(pool.map(bench.evaluate, jobs))
+        file, tables = bench.variant(name, i, world, robot, changed(text, keys), what.split()[0] if name == "Cells" else "0.1")
+        words.append(["--robot", file, "--tables", tables, *extra])
+    found = bench.sweeps.groups(re.sub(r"\W+", "-", name.lower()), ["eval", "--source", "record:%s-{seed}.rec" % base, "{row}"],
+                                {"row": words, "seed": sweeps.seeds(bench.drives)})
     print("\n## %s\n\n| %s | %s |\n|%s" % (name, column, " | ".join(HEAD), "---|" * (len(HEAD) + 1)))
-    for (what, _, _), (runs, _) in zip(variants, found):
+    for (what, *_), runs in zip(variants, found.values()):
         print("| %s | %s |" % (what, " | ".join(row(runs))), flush=True)
     if chosen and pictures:
+        drawn = {i: (variants[i][0], bench.drawn(name, i, words[i], "record:%s-1.rec" % base)) for i in chosen}
         picture(os.path.join(pictures, "tuning-%s.svg" % name.lower().replace(" ", "-")),
-                "heading" if name == "Mount" else "position",
-                [(what, data) for (what, _, _), (_, data) in zip(variants, found)], chosen)
+                "heading" if name == "Mount" else "position", drawn, chosen)
 
 
 def main():

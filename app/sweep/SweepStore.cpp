@@ -208,6 +208,11 @@ std::string SweepStore::figuresOf(const SweepTask& task) const {
   return {reinterpret_cast<const char*>(bytes.data()) + begin, end - begin};
 }
 
+std::string SweepStore::saidBy(const SweepTask& task) const {
+  std::ifstream in(failureOf(task.id), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 std::optional<SweepCost> SweepStore::costOf(const std::string& id) const {
   const auto found = costs_.find(id);
   return found == costs_.end() ? std::nullopt : std::optional(found->second);

@@ -44,6 +44,8 @@ class SweepStore {
   Result resultOf(const SweepTask& task);
   /// Returns the JSON that the task's command would have written. @pre it is done or stale
   std::string figuresOf(const SweepTask& task) const;
+  /// Returns what a task said that failed.
+  std::string saidBy(const SweepTask& task) const;
   std::optional<SweepCost> costOf(const std::string& id) const;
 
   std::filesystem::path partOf(const std::string& id) const;

@@ -134,13 +134,16 @@ std::string allFigures(SweepStore& store, const SweepFile& sweep) {
     const SweepTask task = sweep.task(i);
     Json values = Json::object();
     for (std::size_t k = 0; k < sweep.keys().size(); ++k) values[sweep.keys()[k]] = task.values[k];
-    const bool isDone = store.resultOf(task).state == SweepStore::State::kDone;
+    const SweepStore::State state = store.resultOf(task).state;
+    const bool isDone = state == SweepStore::State::kDone;
+    const bool hasFailed = state == SweepStore::State::kFailed;
     const auto dumped = [](const Json& json) {
       return json.dump(-1, ' ', true, Json::error_handler_t::replace);
     };
-    text += fmt::format("{}\n{{\"task\": {}, \"values\": {}, \"figures\": {}}}", i > 0 ? "," : "",
+    text += fmt::format("{}\n{{\"task\": {}, \"values\": {}, \"figures\": {}{}}}", i > 0 ? "," : "",
                         dumped(task.name), dumped(values),
-                        isDone ? dumped(Json::parse(store.figuresOf(task))) : "null");
+                        isDone ? dumped(Json::parse(store.figuresOf(task))) : "null",
+                        hasFailed ? ", \"failed\": " + dumped(store.saidBy(task)) : "");
   }
   return text + "\n]\n}\n";
 }

@@ -39,7 +39,7 @@ SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::s
 
 /// Returns all that the commands of tasks would have written, as JSON: {"format", "tasks":
 /// [{"task", "values": {key: name}, "figures"}]}, in the order of the sweep; "figures" is null
-/// where there is no result.
+/// where there is no result, and "failed" what a task said that failed.
 std::string allFigures(SweepStore& store, const SweepFile& sweep);
 
 std::string toMarkdown(const SweepTable& table);

@@ -167,6 +167,10 @@ TEST_F(Sweep, TasksThatFailAreNamedWithWhatTheySaid) {
   const std::string said = read("all/" + filesOf("all").front());
   EXPECT_NE(said.find("none.toml"), std::string::npos) << said;
   EXPECT_NE(sweep({"status", path("all")}).out.find("10 failed"), std::string::npos);
+  ASSERT_EQ(sweep({"table", path("all"), "--json", path("all.json")}).exitCode, 0);
+  const nlohmann::json first = nlohmann::json::parse(read("all.json"))["tasks"][0];
+  EXPECT_TRUE(first["figures"].is_null());
+  EXPECT_NE(first["failed"].get<std::string>().find("none.toml"), std::string::npos);
 }
 
 TEST_F(Sweep, AveragesAndWritesPages) {
