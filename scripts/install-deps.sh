@@ -38,6 +38,8 @@ test=(
   python3-pil
   # the Python package, its wheel, and what looks at its stubs
   python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
+  # robots of ROS 2: DDS, and another implementation of it with a generator of its own for the tests
+  libfastrtps-dev libfastcdr-dev cyclonedds-dev cyclonedds-tools
   # training of motion networks
   libdlib-dev libblas-dev
   # tests

@@ -18,8 +18,9 @@ class Program:
 
     def __init__(self, path, root):
         self.path = path
-        scripts = [p.read_text() for p in pathlib.Path(root, "scripts").glob("*.py")]
-        self.others = set(OPTION.findall("\n".join(scripts))) | {"--preset"}  # of scripts, and CMake's
+        files = [*pathlib.Path(root, "scripts").glob("*.py"), pathlib.Path(root, "realsensors/ros2_live/OrtungRos2.cpp")]
+        scripts = [p.read_text() for p in files]
+        self.others = set(OPTION.findall("\n".join(scripts))) | {"--preset"}  # of scripts and other programs, and CMake's
 
     @functools.cache
     def help(self, *words):
@@ -49,7 +50,7 @@ class Program:
         if not is_whole and words[0].startswith("--"):
             option = words[0].split("=")[0]
             if option not in self.all_options() and option not in self.others:
-                raise PageError(page, line, f"'{option}', expected an option of a command of 'ortung', or of a script")
+                raise PageError(page, line, f"'{option}', expected an option of a command of 'ortung', or of a script or another program")
             return
         path = []
         while names := self.commands(*path):

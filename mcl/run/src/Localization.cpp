@@ -332,6 +332,14 @@ bool Localization::advance() {
   return true;
 }
 
+void Localization::take(std::span<const Message> moment) {
+  const Timestamp stamp = moment.front().stamp;
+  robot_->container.set(moment);
+  if (knownSince_ && stamp < *knownSince_) knownSince_.reset();  // a clock was set back
+  searchMeanwhile(taken_.value_or(0), stamp);
+  taken_ = stamp;
+}
+
 /// Searches on between readings: they may be seconds apart in logs, and a robot asks for its pose
 /// meanwhile. A result is known from the time of its search on, not before.
 void Localization::searchMeanwhile(Timestamp since, Timestamp until) {

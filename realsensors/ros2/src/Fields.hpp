@@ -85,6 +85,16 @@ void fields(A& a, Is<PoseArray> auto& m) {
   a(m.poses);
 }
 template <class A>
+void fields(A& a, Is<Particle> auto& m) {
+  a(m.pose);
+  a(m.weight);
+}
+template <class A>
+void fields(A& a, Is<ParticleCloud> auto& m) {
+  a(m.header);
+  a(m.particles);
+}
+template <class A>
 void fields(A& a, Is<OccupancyGrid> auto& m) {
   a(m.header);
   a.time(m.mapLoadTime);

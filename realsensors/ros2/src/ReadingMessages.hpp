@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/formats/ProtectionData.hpp"
@@ -41,7 +42,7 @@ PoseArray samplesMessage(const Message& reading, Header header);
 std::optional<OccupancyGrid> changesMessage(const Message& reading, Header header);
 /// How far a localization can be relied on: OK while tracking, WARN while uncertain, else ERROR.
 /// @param name of the localization among all parts of the robot
-DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,
+ORTUNG_API DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,
                                    const ProtectionData::Reading& bound, const std::string& name,
                                    Header header);
 

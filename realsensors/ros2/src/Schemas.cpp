@@ -63,6 +63,10 @@ constexpr Definition kDefinitions[] = {
     {"nav_msgs/OccupancyGrid",
      "std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n",
      {"std_msgs/Header", "nav_msgs/MapMetaData"}},
+    {"nav2_msgs/Particle", "geometry_msgs/Pose pose\nfloat64 weight\n", {"geometry_msgs/Pose"}},
+    {"nav2_msgs/ParticleCloud",
+     "std_msgs/Header header\nnav2_msgs/Particle[] particles\n",
+     {"std_msgs/Header", "nav2_msgs/Particle"}},
     {"sensor_msgs/LaserScan",
      "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
      "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"

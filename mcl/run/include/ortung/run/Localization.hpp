@@ -112,6 +112,11 @@ class ORTUNG_API Localization {
   /// next() does, step by step.
   /// @throws std::runtime_error of the source, std::logic_error without one
   bool advance();
+  /// Fills in a moment that the program has, in place of a source: with update() it does what
+  /// next() does. Moments come in the order of time. @param moment readings of one stamp, at least
+  /// one
+  /// @throws std::invalid_argument for words that a feature refuses
+  void take(std::span<const Message> moment);
   /// Takes the container's new readings. Returns the new estimate if they weighed the belief.
   std::optional<PoseEstimate> update();
 
@@ -209,6 +214,7 @@ class ORTUNG_API Localization {
   bool publishes_ = false;
   std::atomic<bool> wantsSamples_ = false;
   std::uint64_t estimates_ = 0;
+  std::optional<Timestamp> taken_;        ///< stamp of the newest moment that the program has given
   const SensorData* odometry_ = nullptr;  ///< odometry's feature; null without odometry
   std::optional<std::pair<TrackStatus, TrackReason>> published_;
   std::optional<Timestamp> lookedAtMap_;  ///< when the map's changes were asked for last

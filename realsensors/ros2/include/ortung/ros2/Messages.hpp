@@ -92,6 +92,18 @@ struct PoseArray {
   std::vector<Pose> poses;
 };
 
+/// A sample of a filter.
+struct Particle {
+  Pose pose;
+  double weight = 0.0;  ///< those of a cloud have the sum 1
+};
+/// The samples of a filter, as Nav2 has them.
+struct ParticleCloud {
+  static constexpr std::string_view kType = "nav2_msgs/msg/ParticleCloud";
+  Header header;
+  std::vector<Particle> particles;
+};
+
 /// A grid map.
 struct OccupancyGrid {
   static constexpr std::string_view kType = "nav_msgs/msg/OccupancyGrid";

@@ -1,0 +1,222 @@
+#include "LiveLocalization.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+
+#include "ReadingMessages.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/ProtectionData.hpp"
+#include "ortung/formats/SamplesData.hpp"
+#include "ortung/formats/ScanData.hpp"
+#include "ortung/formats/TrackData.hpp"
+#include "ortung/ros2/Messages.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{20};  ///< between looks at odometry that moves nothing
+
+std::int64_t nanoseconds(Timestamp stamp) { return stamp * 1000; }
+
+/// Puts the covariance of (x, y, heading) into that of a pose in space.
+Covariance inSpace(const PoseCovariance& plane) {
+  constexpr std::size_t kPlanar[3] = {0, 1, 5};  // of six dimensions
+  Covariance space{};
+  for (std::size_t i = 0; i < 9; ++i) space[kPlanar[i / 3] * 6 + kPlanar[i % 3]] = plane[i];
+  return space;
+}
+
+const SensorData* onlyOf(const SensorContainer& container, std::string_view format,
+                         const std::string& what) {
+  const SensorData* found = nullptr;
+  for (const auto& data : container.all()) {
+    if (data->format().name() != format) continue;
+    if (found != nullptr)
+      throw std::invalid_argument(what + ": the robot has " + toText(found->id()) + " and " +
+                                  toText(data->id()) + ", expected TOPIC=MODEL/TYPE/FEATURE");
+    found = data.get();
+  }
+  if (found == nullptr)
+    throw std::invalid_argument(what + ": the robot file has no feature of the format " +
+                                std::string(format));
+  return found;
+}
+
+}  // namespace
+
+LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
+                                                   const SensorContainer& container) {
+  LiveReadings::Options wanted;
+  wanted.base = options.base;
+  wanted.odom = options.odom;
+  wanted.followsFrames = options.odometry == "tf";
+  wanted.odometry = onlyOf(container, formats::kOdometry, options.odometry)->id();
+  for (const std::string& scan : options.scans) {
+    const std::size_t equals = scan.find('=');
+    const SensorData* data = equals == scan.npos
+                                 ? onlyOf(container, formats::kScan, scan)
+                                 : container.findExactly(parseSensorId(scan.substr(equals + 1)));
+    if (data == nullptr || data->format().name() != formats::kScan)
+      throw std::invalid_argument(scan + ": the robot file has no scanner of that name");
+    const ScanData::Config config = ScanData::configOf(data->format());
+    wanted.scanners.push_back({scan.substr(0, equals), data->id(),
+                               static_cast<std::size_t>(config.beams), config.maxRange});
+  }
+  return wanted;
+}
+
+LiveLocalization::LiveLocalization(const Options& options)
+    : options_(options),
+      localization_(options.localization),
+      readings_(readingsOf(options, localization_.container())),
+      node_(options.node) {
+  if (!options.belief.empty() && std::filesystem::exists(options.belief))
+    localization_.restoreBelief(options.belief);
+  localization_.wantSamples(true);
+  tf_ = node_.publish("/tf", TfMessage::kType, Qos::kDefault);
+  pose_ = node_.publish("/amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
+  particles_ = node_.publish("/particle_cloud", ParticleCloud::kType, Qos::kSensor);
+  diagnostics_ = node_.publish("/diagnostics", DiagnosticArray::kType, Qos::kDefault);
+  listen();
+}
+
+void LiveLocalization::listen() {
+  node_.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
+                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, true); });
+  node_.subscribe("/tf", TfMessage::kType, Qos::kDefault,
+                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, false); });
+  if (options_.odometry != "tf")
+    node_.subscribe(options_.odometry, Odometry::kType, Qos::kSensor,
+                    [this](std::string_view cdr) { readings_.takeOdometry(cdr); });
+  for (std::size_t i = 0; i < options_.scans.size(); ++i) {
+    const std::string topic = options_.scans[i].substr(0, options_.scans[i].find('='));
+    node_.subscribe(topic, LaserScan::kType, Qos::kSensor,
+                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
+  }
+  node_.subscribe("/initialpose", PoseWithCovarianceStamped::kType, Qos::kDefault,
+                  [this](std::string_view cdr) { takeInitialPose(cdr); });
+}
+
+void LiveLocalization::takeInitialPose(std::string_view cdr) {
+  std::string why;
+  const auto told = fromCdr<PoseWithCovarianceStamped>(cdr, why);
+  if (!told || (!told->header.frame.empty() && told->header.frame != options_.map)) return;
+  InitialPose wanted{toPose2(told->pose), {}};
+  constexpr std::size_t kPlanar[3] = {0, 1, 5};
+  for (std::size_t i = 0; i < 9; ++i)
+    wanted.covariance[i] = told->covariance[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
+  const std::lock_guard lock(mutex_);
+  initialPose_ = wanted;
+}
+
+void LiveLocalization::startAtInitialPose() {
+  std::optional<InitialPose> wanted;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(wanted, initialPose_);
+  }
+  if (!wanted) return;
+  try {
+    localization_.setPose(wanted->pose, wanted->covariance);
+  } catch (const std::exception& error) {
+    std::cerr << "ortung-ros2: initialpose: " << error.what() << std::endl;
+  }
+}
+
+void LiveLocalization::tellPose(const PoseEstimate& estimate) {
+  const Header header{nanoseconds(estimate.stamp), options_.map};
+  pose_(toCdr(
+      PoseWithCovarianceStamped{header, fromPose2(estimate.pose), inSpace(estimate.covariance)}));
+  const SensorContainer& container = localization_.container();
+  if (const SensorData* data = container.findExactly({"mcl", "LOCALIZATION", "samples"})) {
+    ParticleCloud cloud{header, {}};
+    double sum = 0.0;
+    for (const auto& sample : static_cast<const SamplesData*>(data)->reading()) {
+      cloud.particles.push_back({fromPose2(sample.pose), sample.weight});
+      sum += sample.weight;
+    }
+    for (Particle& particle : cloud.particles)
+      if (sum > 0.0) particle.weight /= sum;
+    particles_(toCdr(cloud));
+  }
+}
+
+/// Tells how far the localization can be relied on, whenever that changes or was weighed anew.
+void LiveLocalization::tellDiagnostics() {
+  const SensorContainer& container = localization_.container();
+  const SensorData* track = container.findExactly({"mcl", "LOCALIZATION", "status"});
+  const SensorData* bound = container.findExactly({"mcl", "LOCALIZATION", "protection"});
+  if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_) return;
+  toldStatus_ = track->sequence();
+  diagnostics_(toCdr(diagnosticsMessage(static_cast<const TrackData*>(track)->reading(),
+                                        static_cast<const ProtectionData*>(bound)->reading(),
+                                        options_.node.node, {nanoseconds(track->stamp()), ""})));
+}
+
+/// Tells where odometry is in the map for all odometry that has arrived, and a while ahead: who
+/// asks for a pose never has to guess.
+void LiveLocalization::tellTransform() {
+  const auto newest = readings_.newestOdometry();
+  if (!newest || !odomInMap_ || (toldAt_ && *newest == *toldAt_)) return;
+  toldAt_ = newest;
+  const auto ahead = static_cast<Timestamp>(options_.transformTolerance * 1e6);
+  TfMessage message;
+  message.transforms.push_back(
+      {{nanoseconds(*newest + ahead), options_.map}, options_.odom, fromPose2(*odomInMap_)});
+  tf_(toCdr(message));
+}
+
+void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
+  startAtInitialPose();
+  if (moment.readings.empty()) return;
+  try {
+    localization_.take(moment.readings);
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "ortung-ros2: " << error.what() << std::endl;
+    return;
+  }
+  const auto estimate = localization_.update();
+  if (estimate) tellPose(*estimate);
+  tellDiagnostics();
+  const Timestamp stamp = moment.readings.front().stamp;
+  const auto here = moment.inOdometry ? localization_.estimate(stamp) : std::nullopt;
+  // Who drives by it is better off with the place of before than with a guess.
+  if (here && here->status != TrackStatus::kLost)
+    odomInMap_ = here->smooth * inverse(*moment.inOdometry);
+}
+
+void LiveLocalization::report() {
+  auto wrong = readings_.leftOut();
+  wrong["messages that were not sent"] = node_.dropped();
+  wrong["messages that could not be taken"] = node_.refused();
+  for (const auto& [what, count] : wrong) {
+    std::uint64_t& told = reported_[what];
+    if (told != count)
+      std::cerr << "ortung-ros2: left out " << count - told << " times: " << what << std::endl;
+    told = count;
+  }
+}
+
+void LiveLocalization::run() {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point reported = Clock::now();
+  while (!isStopped_) {
+    if (const auto moment = readings_.next(kLook)) onMoment(*moment);
+    tellTransform();
+    const std::chrono::duration<double> since = Clock::now() - reported;
+    if (since.count() < options_.reportSeconds) continue;
+    reported = Clock::now();
+    report();
+    if (!options_.belief.empty() && localization_.estimate(toldAt_.value_or(0)))
+      localization_.saveBelief(options_.belief);
+  }
+  report();
+  if (!options_.belief.empty() && odomInMap_) localization_.saveBelief(options_.belief);
+}
+
+}  // namespace ortung::ros2

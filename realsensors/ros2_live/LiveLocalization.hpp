@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "LiveReadings.hpp"
+#include "Participant.hpp"
+#include "ortung/run/Localization.hpp"
+
+namespace ortung::ros2 {
+
+/// A robot that is localized by what it says in ROS 2: reads scans, odometry and frames, and tells
+/// where the odometry's frame is in the map, as Nav2's amcl does. Not thread-safe but for stop().
+class LiveLocalization {
+ public:
+  struct Options {
+    LocalizationConfig localization;  ///< robot, tables, start, seed
+    Participant::Options node;
+    /// Topics of scans, each with the feature it is of, as "scan=laser/LRF/scan"; without one it is
+    /// the robot's only scanner.
+    std::vector<std::string> scans = {"scan"};
+    std::string odometry = "odom";  ///< topic of nav_msgs/Odometry, or "tf"
+    std::string base = "base_footprint", odom = "odom", map = "map";  ///< frames
+    double transformTolerance = 1.0;  ///< how far ahead transforms are valid [s]
+    std::filesystem::path belief;     ///< kept over runs; "": none
+    double reportSeconds = 10.0;      ///< between two reports of what is wrong [s]
+  };
+
+  /// @throws like Localization, std::invalid_argument for a topic that fits no scanner,
+  ///   std::runtime_error of DDS
+  explicit LiveLocalization(const Options& options);
+
+  /// Runs until stop().
+  void run();
+  /// May be called from a signal's handler.
+  void stop() { isStopped_ = true; }
+
+ private:
+  struct InitialPose {
+    Pose2 pose;
+    PoseCovariance covariance{};
+  };
+  static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container);
+  void listen();
+  void takeInitialPose(std::string_view cdr);
+  void startAtInitialPose();
+  void onMoment(const LiveReadings::Moment& moment);
+  void tellPose(const PoseEstimate& estimate);
+  void tellDiagnostics();
+  void tellTransform();
+  void report();
+
+  const Options options_;
+  Localization localization_;
+  LiveReadings readings_;
+  std::mutex mutex_;  ///< for initialPose_
+  std::optional<InitialPose> initialPose_;
+  Participant node_;  ///< its threads use what is above, so it goes before that
+  Participant::Sender tf_, pose_, particles_, diagnostics_;
+  std::optional<Pose2> odomInMap_;  ///< of the newest estimate that was not lost
+  std::optional<Timestamp>
+      toldAt_;                    ///< stamp of the odometry that was followed by a transform last
+  std::uint64_t toldStatus_ = 0;  ///< sequence of the status that diagnostics had last
+  std::map<std::string, std::uint64_t> reported_;
+  std::atomic<bool> isStopped_ = false;
+};
+
+}  // namespace ortung::ros2

@@ -1,0 +1,281 @@
+#include "Participant.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+#include "Cdr.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 27;  ///< of a message; a map has millions
+constexpr int kDepth = 10;
+constexpr int kReading = 100;  ///< messages that wait for the thread that takes them
+
+/// A message as it is on the wire.
+struct Bytes {
+  std::string cdr;
+};
+
+/// Messages whose CDR somebody else makes and reads.
+class BytesType : public dds::TopicDataType {
+ public:
+  explicit BytesType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = 1024;  // what a message has at first; it grows
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool serialize(void* data, SerializedPayload_t* payload) override {
+    const std::string& cdr = static_cast<Bytes*>(data)->cdr;
+    if (cdr.size() > payload->max_size) return false;
+    payload->encapsulation = CDR_LE;
+    payload->length = static_cast<std::uint32_t>(cdr.size());
+    std::memcpy(payload->data, cdr.data(), cdr.size());
+    return true;
+  }
+  bool deserialize(SerializedPayload_t* payload, void* data) override {
+    if (payload->length > kMostBytes) return false;
+    static_cast<Bytes*>(data)->cdr.assign(reinterpret_cast<const char*>(payload->data),
+                                          payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    const auto size = static_cast<std::uint32_t>(static_cast<Bytes*>(data)->cdr.size());
+    return [size] { return size; };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+/// Hands the messages of a topic on.
+class Listener : public dds::DataReaderListener {
+ public:
+  Listener(Participant::Taker taker, std::atomic<std::uint64_t>& refused)
+      : taker_(std::move(taker)), refused_(refused) {}
+  void on_data_available(dds::DataReader* reader) override {
+    dds::SampleInfo info;
+    while (reader->take_next_sample(&bytes_, &info) == ReturnCode_t::RETCODE_OK) {
+      try {
+        if (info.valid_data) taker_(bytes_.cdr);
+      } catch (const std::exception&) {
+        ++refused_;  // whatever somebody has sent, it must not end the thread of DDS
+      }
+    }
+  }
+
+ private:
+  Participant::Taker taker_;
+  std::atomic<std::uint64_t>& refused_;
+  Bytes bytes_;  ///< used by one thread at a time, as DDS calls a listener
+};
+
+template <class Endpoint>
+void setQos(Endpoint& qos, Qos wanted, int depth) {
+  const bool isLatched = wanted == Qos::kLatched;
+  qos.reliability().kind =
+      wanted == Qos::kSensor ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind =
+      isLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = isLatched ? 1 : depth;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.data_sharing().off();
+}
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+std::string ddsTopic(const std::string& topic) {
+  return "rt" + (topic.starts_with('/') ? topic : "/" + topic);
+}
+
+std::string ddsType(std::string_view type) {
+  std::string name;
+  std::size_t begin = 0;
+  for (std::size_t slash = type.find('/'); slash != type.npos; slash = type.find('/', begin)) {
+    name += std::string(type.substr(begin, slash - begin)) + "::";
+    begin = slash + 1;
+  }
+  return name + "dds_::" + std::string(type.substr(begin)) + "_";
+}
+
+void Participant::Options::readEnvironment() {
+  constexpr std::uint32_t kMostDomains = 232;
+  if (const std::string text = environment("ROS_DOMAIN_ID"); !text.empty()) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
+    if (error != std::errc() || end != text.data() + text.size() || domain > kMostDomains)
+      throw std::runtime_error("ROS_DOMAIN_ID is '" + text + "', expected 0 to 232");
+  }
+  if (environment("ROS_LOCALHOST_ONLY") == "1") isLocal = true;
+  const std::string range = environment("ROS_AUTOMATIC_DISCOVERY_RANGE");
+  if (range == "LOCALHOST") isLocal = true;
+  if (range == "SUBNET") isLocal = false;
+  if (!range.empty() && range != "LOCALHOST" && range != "SUBNET" && range != "SYSTEM_DEFAULT")
+    throw std::runtime_error("ROS_AUTOMATIC_DISCOVERY_RANGE is '" + range +
+                             "', expected LOCALHOST, SUBNET or SYSTEM_DEFAULT");
+}
+
+struct Participant::Parts {
+  Options options;
+  dds::DomainParticipant* participant = nullptr;
+  dds::Publisher* publisher = nullptr;
+  dds::Subscriber* subscriber = nullptr;
+  std::map<std::string, dds::Topic*> topics;  ///< by name
+  std::vector<std::unique_ptr<Listener>> listeners;
+  std::vector<dds::DataReader*> readers;
+  std::vector<dds::DataWriter*> writers;
+  std::vector<GUID_t> readerIds, writerIds;
+  dds::DataWriter* graph = nullptr;  ///< tells of the node
+  std::atomic<std::uint64_t> dropped = 0, refused = 0;
+  std::mutex mutex;  ///< for all but these numbers
+
+  dds::Topic* topic(const std::string& name, const std::string& type);
+  dds::DataWriter* writer(const std::string& name, const std::string& type, Qos qos);
+  void tellGraph();
+};
+
+dds::Topic* Participant::Parts::topic(const std::string& name, const std::string& type) {
+  dds::Topic*& known = topics[name];
+  if (known != nullptr) return known;
+  dds::TypeSupport support(new BytesType(type));
+  support.register_type(participant);
+  known = participant->create_topic(name, type, dds::TOPIC_QOS_DEFAULT);
+  if (known == nullptr) throw std::runtime_error("DDS has no topic " + name + " of " + type);
+  return known;
+}
+
+dds::DataWriter* Participant::Parts::writer(const std::string& name, const std::string& type,
+                                            Qos qos) {
+  dds::DataWriterQos wanted = dds::DATAWRITER_QOS_DEFAULT;
+  setQos(wanted, qos, kDepth);
+  // Sent by a thread of DDS, so that who publishes does not wait for the network.
+  wanted.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
+  dds::DataWriter* const made = publisher->create_datawriter(topic(name, type), wanted);
+  if (made == nullptr) throw std::runtime_error("DDS can't write " + name);
+  return made;
+}
+
+/// Tells which topics belong to the node: rmw_dds_common/msg/ParticipantEntitiesInfo.
+void Participant::Parts::tellGraph() {
+  const std::size_t size = options.distro == Distro::kHumble ? 24 : 16;
+  CdrWriter out;
+  const auto add = [&](const GUID_t& id) {
+    std::array<std::uint8_t, 24> bytes{};
+    std::copy_n(id.guidPrefix.value, 12, bytes.begin());
+    std::copy_n(id.entityId.value, 4, bytes.begin() + 12);
+    for (std::size_t i = 0; i < size; ++i) out(bytes[i]);
+  };
+  const auto addAll = [&](const std::vector<GUID_t>& ids) {
+    out(static_cast<std::uint32_t>(ids.size()));
+    for (const GUID_t& id : ids) add(id);
+  };
+  add(participant->guid());
+  out(std::uint32_t{1});
+  out(options.space);
+  out(options.node);
+  addAll(readerIds);
+  addAll(writerIds);
+  Bytes bytes{out.take()};
+  if (!graph->write(&bytes)) ++dropped;
+}
+
+Participant::Participant(const Options& options) : parts_(std::make_unique<Parts>()) {
+  Parts& p = *parts_;
+  p.options = options;
+  dds::Log::SetVerbosity(dds::Log::Kind::Error);
+  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+  qos.name(options.node);
+  const std::string enclave = "enclave=/;";
+  qos.user_data().setValue({enclave.begin(), enclave.end()});
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  if (options.isLocal) udp->interfaceWhiteList = {"127.0.0.1"};
+  constexpr std::uint32_t kBuffer = 4U << 20;  // a burst of scans and a map [bytes]
+  udp->receiveBufferSize = kBuffer;
+  udp->sendBufferSize = kBuffer;
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {udp};
+  p.participant =
+      dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos);
+  if (p.participant == nullptr)
+    throw std::runtime_error("DDS can't begin in domain " + std::to_string(options.domain));
+  p.publisher = p.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+  p.subscriber = p.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  if (p.publisher == nullptr || p.subscriber == nullptr)
+    throw std::runtime_error("DDS has no room for a node");
+  p.graph = p.writer("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
+                     Qos::kLatched);
+  p.tellGraph();
+}
+
+Participant::~Participant() {
+  Parts& p = *parts_;
+  for (dds::DataReader* reader : p.readers) reader->set_listener(nullptr);
+  if (p.participant == nullptr) return;
+  p.participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(p.participant);
+}
+
+void Participant::subscribe(const std::string& topic, std::string_view type, Qos qos, Taker taker) {
+  Parts& p = *parts_;
+  const std::lock_guard lock(p.mutex);
+  dds::DataReaderQos wanted = dds::DATAREADER_QOS_DEFAULT;
+  setQos(wanted, qos, kReading);
+  p.listeners.push_back(std::make_unique<Listener>(std::move(taker), p.refused));
+  dds::DataReader* const reader =
+      p.subscriber->create_datareader(p.topic(ddsTopic(topic), ddsType(type)), wanted,
+                                      p.listeners.back().get(), dds::StatusMask::data_available());
+  if (reader == nullptr) throw std::runtime_error("DDS can't read " + topic);
+  p.readers.push_back(reader);
+  p.readerIds.push_back(reader->guid());
+  p.tellGraph();
+}
+
+Participant::Sender Participant::publish(const std::string& topic, std::string_view type, Qos qos) {
+  Parts& p = *parts_;
+  const std::lock_guard lock(p.mutex);
+  dds::DataWriter* const writer = p.writer(ddsTopic(topic), ddsType(type), qos);
+  p.writers.push_back(writer);
+  p.writerIds.push_back(writer->guid());
+  p.tellGraph();
+  return [&p, writer](std::string_view cdr) {
+    Bytes bytes{std::string(cdr)};
+    if (!writer->write(&bytes)) ++p.dropped;
+  };
+}
+
+std::uint64_t Participant::dropped() const { return parts_->dropped; }
+std::uint64_t Participant::refused() const { return parts_->refused; }
+
+}  // namespace ortung::ros2

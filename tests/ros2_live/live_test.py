@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""live_test.py ORTUNG ORTUNG_ROS2 PEER DATA  a robot of ROS 2 that knows nothing of ours, a program on Cyclone DDS with types of its own
+generator, says what a real log has, and hears from ortung-ros2 where it is: the same poses as `ortung localize` finds in the log."""
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+
+ortung, node, peer, data = map(pathlib.Path, sys.argv[1:])
+LOG = data / "mrpt_uwb_ro"
+if not LOG.is_dir():
+    print('live_test.py: Skipped\n"%s" is not here' % LOG)
+    sys.exit(77)
+SECONDS, PACE = 40.0, 8.0
+OFFSET = 2**31
+
+
+def expect(condition, what):
+    if not condition:
+        sys.exit("failed: " + what)
+
+
+def run(*words):
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+    expect(done.returncode == 0, "%s\n%s" % (words, done.stderr))
+    return done.stdout
+
+
+def lines_of(record, robot):
+    """What the robot says of a record: its mount, odometry and scans."""
+    mount = re.search(r'plugin = "lrf".*?x_m = ([-0-9.e]+), y_m = ([-0-9.e]+), theta_deg = ([-0-9.e]+)', robot, re.S).groups()
+    beams = dict(word.split("=") for word in re.search(r"(?m)^# format laser/LRF/scan scan (.*)$", record).group(1).split())
+    first, step, most = math.radians(float(beams["first_deg"])), math.radians(float(beams["step_deg"])), float(beams["max_m"])
+    lines = ["static base_link laser %s %s %r" % (*mount[:2], math.radians(float(mount[2])))]
+    begin = None
+    for line in record.splitlines():
+        words = line.split()
+        if line.startswith("#"):
+            continue
+        stamp = int(words[0])
+        begin = stamp if begin is None else begin
+        if stamp - begin > SECONDS * 1e6:
+            break
+        numbers = [int(word) for word in words[3:]]
+        if words[1] == "odometry/odometry/pose":
+            x, y, v = ((numbers[i] - OFFSET) / 1e3 for i in (0, 1, 3))
+            turn = (numbers[4] - OFFSET) * RATE
+            lines.append("odom %d %r %r %r %r %r" % (stamp * 1000, x, y, math.radians((numbers[2] - 18000) / 100), v, turn))
+        elif words[1] == "laser/LRF/scan":
+            ranges = ["nan" if n == 0 else "inf" if n > 1000 * most else repr(n / 1e3) for n in numbers]
+            lines.append("scan %d laser %r %r %r %d %s" % (stamp * 1000, first, step, most, len(ranges), " ".join(ranges)))
+    return lines
+
+
+RATE = math.radians(0.01)  # of a word of turning
+
+
+def heading(z, w):
+    return 2.0 * math.atan2(float(z), float(w))
+
+
+def main():
+    with tempfile.TemporaryDirectory(prefix="ortung-ros2-") as name:
+        folder = pathlib.Path(name)
+        base = folder / "log"
+        run(ortung, "import", "scanlog", LOG, "--out", base.with_suffix(".rec"), "--world", base.with_suffix(".toml"), "--robot-file",
+            folder / "robot.toml")
+        run(ortung, "learn", "--world", base.with_suffix(".toml"), "--robot", folder / "robot.toml", "--out", folder / "log.ortung")
+        record = subprocess.run(["zstdcat", "-f", base.with_suffix(".rec")], check=True, capture_output=True, text=True).stdout
+        lines = lines_of(record, (folder / "robot.toml").read_text())
+        run(ortung, "localize", "--source", "record:%s?to_s=%g" % (base.with_suffix(".rec"), SECONDS), "--robot", folder / "robot.toml", "--tables",
+            folder / "log.ortung", "--out", folder / "poses.txt")
+        expected = [[float(word) for word in line.split()[:4]] for line in (folder / "poses.txt").read_text().splitlines() if line[0] != "#"]
+
+        domain = 1 + os.getpid() % 100
+        environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1",
+                       "CYCLONEDDS_URI": '<General><Interfaces><NetworkInterface name="lo" multicast="true"/></Interfaces>'
+                                         "<AllowMulticast>true</AllowMulticast></General>"}
+        live = subprocess.Popen([node, "--robot", folder / "robot.toml", "--tables", folder / "log.ortung", "--base-frame", "base_link",
+                                 "--node", "amcl"], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        try:
+            heard = subprocess.run([peer, str(domain), str(PACE)], input="\n".join(lines) + "\n", env=environment, capture_output=True,
+                                   text=True, timeout=120)
+        finally:
+            live.send_signal(signal.SIGTERM)
+            said = live.communicate(timeout=30)
+        expect(heard.returncode == 0, heard.stderr + str(said))
+        if os.environ.get("LIVE_TEST_HEARD"):
+            pathlib.Path(os.environ["LIVE_TEST_HEARD"]).write_text(heard.stdout)
+        check([line.split() for line in heard.stdout.splitlines()], expected, lines, said)
+
+
+def check(heard, expected, lines, said):
+    of = lambda kind: [words[1:] for words in heard if words[0] == kind]
+    [[seconds]] = of("matched")
+    expect(float(seconds) <= 2.0, "matched after %s s, expected 2" % seconds)
+    expect(["/", "amcl", "5", "4"] in of("node"), "the graph has the node with what it reads and writes: %s" % of("node"))
+    found = {int(us): pose for us, *pose in expected}
+    poses = of("pose")
+    clouds = of("particles")
+    print("%d poses, %d particle clouds, %d transforms; `ortung localize` has %d poses" % (len(poses), len(clouds), len(of("tf")), len(found)))
+    # Best effort, and of poses the last one only for who is late: some may be lost, none may be another.
+    expect(len(poses) > 0.8 * len(found) and len(clouds) > 0.8 * len(found), "too few\n%s" % (said,))
+    for stamp, frame, x, y, z, w, *_ in poses:
+        expect(int(stamp) % 1000 == 0 and int(stamp) // 1000 in found and frame == "map", "a pose at %s in %s" % (stamp, frame))
+        ex, ey, et = found[int(stamp) // 1000]
+        off = max(abs(float(x) - ex), abs(float(y) - ey), abs(math.remainder(heading(z, w) - et, math.tau)))
+        expect(off < 1e-4, "the pose at %s is %s, %s, expected %s, %s" % (stamp, x, y, ex, ey))  # digits of the file
+    for stamp, count, total in clouds:
+        expect(int(count) >= 100 and abs(float(total) - 1.0) < 1e-6, "%s particles of weight %s" % (count, total))
+    check_transforms(of("tf"), poses, [line.split() for line in lines if line.startswith("odom")])
+    expect(all(name == "amcl" for _, _, name, *_ in of("diagnostics")) and of("diagnostics"), "diagnostics name the node")
+
+
+def check_transforms(transforms, poses, odometry):
+    """Odometry in the map, times the robot in odometry, is the robot in the map; no odometry is without a transform of its time."""
+    at = {int(stamp): (float(x), float(y), float(theta)) for _, stamp, x, y, theta, *_ in odometry}
+    expect(all((parent, child) == ("map", "odom") for _, parent, child, *_ in transforms), "map -> odom, and no other")
+    stamps = [int(stamp) for stamp, *_ in transforms]
+    expect(stamps == sorted(set(stamps)), "transforms whose time rises")
+    first = int(poses[0][0])
+    late = [stamp for stamp in at if stamp > first and stamp + 1_000_000_000 not in set(stamps)]
+    expect(len(late) < 0.05 * len(at), "%d of %d odometries have no transform" % (len(late), len(at)))
+    off = []
+    for stamp, _, _, x, y, z, w in transforms:
+        pose = next((p for p in poses if int(p[0]) == int(stamp) - 1_000_000_000), None)
+        if pose is None or int(pose[0]) not in at:
+            continue
+        ox, oy, _ = at[int(pose[0])]
+        turn = heading(z, w)
+        off.append(math.hypot(float(x) + math.cos(turn) * ox - math.sin(turn) * oy - float(pose[2]),
+                              float(y) + math.sin(turn) * ox + math.cos(turn) * oy - float(pose[3])))
+    print("robot by transforms beside poses: median %.4f m, most %.4f m of %d" % (sorted(off)[len(off) // 2], max(off), len(off)))
+
+
+main()
