@@ -72,34 +72,55 @@ LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
 
 LiveLocalization::LiveLocalization(const Options& options)
     : options_(options),
-      localization_(options.localization),
-      readings_(readingsOf(options, localization_.container())),
-      node_(options.node) {
+      localization_(std::make_unique<Localization>(options.localization)),
+      odometry_(onlyOf(localization_->container(), formats::kOdometry, options.odometry)->id()),
+      readings_(readingsOf(options, localization_->container())) {
   if (!options.belief.empty() && std::filesystem::exists(options.belief))
-    localization_.restoreBelief(options.belief);
-  localization_.wantSamples(true);
-  tf_ = node_.publish("/tf", TfMessage::kType, Qos::kDefault);
-  pose_ = node_.publish("/amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
-  particles_ = node_.publish("/particle_cloud", ParticleCloud::kType, Qos::kSensor);
-  diagnostics_ = node_.publish("/diagnostics", DiagnosticArray::kType, Qos::kDefault);
-  listen();
+    localization_->restoreBelief(options.belief);
+  localization_->wantSamples(true);
 }
 
-void LiveLocalization::listen() {
-  node_.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
-                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, true); });
-  node_.subscribe("/tf", TfMessage::kType, Qos::kDefault,
-                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, false); });
+void LiveLocalization::changeTables(const std::filesystem::path& tables) {
+  LocalizationConfig config = options_.localization;
+  config.tables = tables;
+  auto changed = std::make_unique<Localization>(config);
+  changed->wantSamples(true);
+  const auto here = lastOdometry_ ? localization_->estimate(lastOdometry_->stamp) : std::nullopt;
+  // Maps of one building have one frame, as a rule; if not, readings will show it.
+  if (here && here->status != TrackStatus::kLost) {
+    try {
+      changed->take(std::span(&*lastOdometry_, 1));  // from which odometry goes on
+      changed->followOdometry();
+      changed->setPose(here->pose, here->covariance);
+    } catch (const std::invalid_argument&) {
+      std::cerr << "ortung-ros2: the new map has no room where the robot is; it is searched for"
+                << std::endl;
+    }
+  }
+  options_.localization = config;
+  localization_ = std::move(changed);
+}
+
+void LiveLocalization::listen(Participant& node) {
+  node_ = &node;
+  tf_ = node.publish("/tf", TfMessage::kType, Qos::kDefault);
+  pose_ = node.publish("/amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
+  particles_ = node.publish("/particle_cloud", ParticleCloud::kType, Qos::kSensor);
+  diagnostics_ = node.publish("/diagnostics", DiagnosticArray::kType, Qos::kDefault);
+  node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
+                 [this](std::string_view cdr) { readings_.takeTransforms(cdr, true); });
+  node.subscribe("/tf", TfMessage::kType, Qos::kDefault,
+                 [this](std::string_view cdr) { readings_.takeTransforms(cdr, false); });
   if (options_.odometry != "tf")
-    node_.subscribe(options_.odometry, Odometry::kType, Qos::kSensor,
-                    [this](std::string_view cdr) { readings_.takeOdometry(cdr); });
+    node.subscribe(options_.odometry, Odometry::kType, Qos::kSensor,
+                   [this](std::string_view cdr) { readings_.takeOdometry(cdr); });
   for (std::size_t i = 0; i < options_.scans.size(); ++i) {
     const std::string topic = options_.scans[i].substr(0, options_.scans[i].find('='));
-    node_.subscribe(topic, LaserScan::kType, Qos::kSensor,
-                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
+    node.subscribe(topic, LaserScan::kType, Qos::kSensor,
+                   [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
   }
-  node_.subscribe("/initialpose", PoseWithCovarianceStamped::kType, Qos::kDefault,
-                  [this](std::string_view cdr) { takeInitialPose(cdr); });
+  node.subscribe("/initialpose", PoseWithCovarianceStamped::kType, Qos::kDefault,
+                 [this](std::string_view cdr) { takeInitialPose(cdr); });
 }
 
 void LiveLocalization::takeInitialPose(std::string_view cdr) {
@@ -122,7 +143,7 @@ void LiveLocalization::startAtInitialPose() {
   }
   if (!wanted) return;
   try {
-    localization_.setPose(wanted->pose, wanted->covariance);
+    localization_->setPose(wanted->pose, wanted->covariance);
   } catch (const std::exception& error) {
     std::cerr << "ortung-ros2: initialpose: " << error.what() << std::endl;
   }
@@ -132,7 +153,7 @@ void LiveLocalization::tellPose(const PoseEstimate& estimate) {
   const Header header{nanoseconds(estimate.stamp), options_.map};
   pose_(toCdr(
       PoseWithCovarianceStamped{header, fromPose2(estimate.pose), inSpace(estimate.covariance)}));
-  const SensorContainer& container = localization_.container();
+  const SensorContainer& container = localization_->container();
   if (const SensorData* data = container.findExactly({"mcl", "LOCALIZATION", "samples"})) {
     ParticleCloud cloud{header, {}};
     double sum = 0.0;
@@ -148,14 +169,14 @@ void LiveLocalization::tellPose(const PoseEstimate& estimate) {
 
 /// Tells how far the localization can be relied on, whenever that changes or was weighed anew.
 void LiveLocalization::tellDiagnostics() {
-  const SensorContainer& container = localization_.container();
+  const SensorContainer& container = localization_->container();
   const SensorData* track = container.findExactly({"mcl", "LOCALIZATION", "status"});
   const SensorData* bound = container.findExactly({"mcl", "LOCALIZATION", "protection"});
   if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_) return;
   toldStatus_ = track->sequence();
   diagnostics_(toCdr(diagnosticsMessage(static_cast<const TrackData*>(track)->reading(),
                                         static_cast<const ProtectionData*>(bound)->reading(),
-                                        options_.node.node, {nanoseconds(track->stamp()), ""})));
+                                        options_.name, {nanoseconds(track->stamp()), ""})));
 }
 
 /// Tells where odometry is in the map for all odometry that has arrived, and a while ahead: who
@@ -175,16 +196,18 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   startAtInitialPose();
   if (moment.readings.empty()) return;
   try {
-    localization_.take(moment.readings);
+    localization_->take(moment.readings);
   } catch (const std::invalid_argument& error) {
     std::cerr << "ortung-ros2: " << error.what() << std::endl;
     return;
   }
-  const auto estimate = localization_.update();
+  const auto estimate = localization_->update();
   if (estimate) tellPose(*estimate);
   tellDiagnostics();
+  for (const Message& reading : moment.readings)
+    if (moment.inOdometry && reading.id == odometry_) lastOdometry_ = reading;
   const Timestamp stamp = moment.readings.front().stamp;
-  const auto here = moment.inOdometry ? localization_.estimate(stamp) : std::nullopt;
+  const auto here = moment.inOdometry ? localization_->estimate(stamp) : std::nullopt;
   // Who drives by it is better off with the place of before than with a guess.
   if (here && here->status != TrackStatus::kLost)
     odomInMap_ = here->smooth * inverse(*moment.inOdometry);
@@ -192,8 +215,10 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
 
 void LiveLocalization::report() {
   auto wrong = readings_.leftOut();
-  wrong["messages that were not sent"] = node_.dropped();
-  wrong["messages that could not be taken"] = node_.refused();
+  if (node_ != nullptr) {
+    wrong["messages that were not sent"] = node_->dropped();
+    wrong["messages that could not be taken"] = node_->refused();
+  }
   for (const auto& [what, count] : wrong) {
     std::uint64_t& told = reported_[what];
     if (told != count)
@@ -202,21 +227,21 @@ void LiveLocalization::report() {
   }
 }
 
-void LiveLocalization::run() {
+void LiveLocalization::run(const std::function<bool()>& goOn) {
   using Clock = std::chrono::steady_clock;
   Clock::time_point reported = Clock::now();
-  while (!isStopped_) {
+  while (goOn()) {
     if (const auto moment = readings_.next(kLook)) onMoment(*moment);
     tellTransform();
     const std::chrono::duration<double> since = Clock::now() - reported;
     if (since.count() < options_.reportSeconds) continue;
     reported = Clock::now();
     report();
-    if (!options_.belief.empty() && localization_.estimate(toldAt_.value_or(0)))
-      localization_.saveBelief(options_.belief);
+    if (!options_.belief.empty() && localization_->estimate(toldAt_.value_or(0)))
+      localization_->saveBelief(options_.belief);
   }
   report();
-  if (!options_.belief.empty() && odomInMap_) localization_.saveBelief(options_.belief);
+  if (!options_.belief.empty() && odomInMap_) localization_->saveBelief(options_.belief);
 }
 
 }  // namespace ortung::ros2

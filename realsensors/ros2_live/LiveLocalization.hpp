@@ -1,7 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +16,12 @@
 namespace ortung::ros2 {
 
 /// A robot that is localized by what it says in ROS 2: reads scans, odometry and frames, and tells
-/// where the odometry's frame is in the map, as Nav2's amcl does. Not thread-safe but for stop().
+/// where the odometry's frame is in the map, as Nav2's amcl does. Not thread-safe.
 class LiveLocalization {
  public:
   struct Options {
     LocalizationConfig localization;  ///< robot, tables, start, seed
-    Participant::Options node;
+    std::string name = "ortung";      ///< of the localization, in diagnostics
     /// Topics of scans, each with the feature it is of, as "scan=laser/LRF/scan"; without one it is
     /// the robot's only scanner.
     std::vector<std::string> scans = {"scan"};
@@ -29,14 +32,18 @@ class LiveLocalization {
     double reportSeconds = 10.0;      ///< between two reports of what is wrong [s]
   };
 
-  /// @throws like Localization, std::invalid_argument for a topic that fits no scanner,
-  ///   std::runtime_error of DDS
+  /// @throws like Localization, std::invalid_argument for a topic that fits no scanner
   explicit LiveLocalization(const Options& options);
 
-  /// Runs until stop().
-  void run();
-  /// May be called from a signal's handler.
-  void stop() { isStopped_ = true; }
+  /// Reads and tells by a node, whose threads use this from then on: it goes first.
+  /// @throws std::runtime_error of DDS
+  void listen(Participant& node);
+  /// Goes on in another world, or with other tables of this one, from where the robot is now.
+  /// @throws like Localization; then nothing has changed
+  void changeTables(const std::filesystem::path& tables);
+
+  /// Runs until @p goOn, which is asked now and then, says no.
+  void run(const std::function<bool()>& goOn);
 
  private:
   struct InitialPose {
@@ -44,7 +51,6 @@ class LiveLocalization {
     PoseCovariance covariance{};
   };
   static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container);
-  void listen();
   void takeInitialPose(std::string_view cdr);
   void startAtInitialPose();
   void onMoment(const LiveReadings::Moment& moment);
@@ -53,19 +59,20 @@ class LiveLocalization {
   void tellTransform();
   void report();
 
-  const Options options_;
-  Localization localization_;
+  Options options_;
+  std::unique_ptr<Localization> localization_;
+  const SensorId odometry_;
   LiveReadings readings_;
   std::mutex mutex_;  ///< for initialPose_
   std::optional<InitialPose> initialPose_;
-  Participant node_;  ///< its threads use what is above, so it goes before that
+  Participant* node_ = nullptr;  ///< borrowed
   Participant::Sender tf_, pose_, particles_, diagnostics_;
-  std::optional<Pose2> odomInMap_;  ///< of the newest estimate that was not lost
+  std::optional<Pose2> odomInMap_;       ///< of the newest estimate that was not lost
+  std::optional<Message> lastOdometry_;  ///< that the localization has
   std::optional<Timestamp>
       toldAt_;                    ///< stamp of the odometry that was followed by a transform last
   std::uint64_t toldStatus_ = 0;  ///< sequence of the status that diagnostics had last
   std::map<std::string, std::uint64_t> reported_;
-  std::atomic<bool> isStopped_ = false;
 };
 
 }  // namespace ortung::ros2

@@ -4,6 +4,9 @@
 //   odom STAMP_NS X Y THETA V W
 //   scan STAMP_NS FRAME ANGLE_MIN STEP RANGE_MAX COUNT RANGE...
 //   initial X Y THETA
+//   map FILE.pgm RESOLUTION X Y      as map_server does with black, white and grey
+//   sample scan ...                  what `ready` says meanwhile
+//   ready                            goes on once everybody is there
 // It prints "matched SECONDS" once all it needs is there, "node ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
 #define _GNU_SOURCE
 #include <dds/dds.h>
@@ -124,8 +127,52 @@ static int hear(const Heard *heard) {
   return count;
 }
 
-static void wait_for_peers(dds_entity_t scan, dds_entity_t odom, dds_entity_t fixed, const Heard *heard) {
+static void say_map(dds_entity_t maps, const char *line) {
+  char file[1024];
+  float resolution;
+  double x, y;
+  unsigned width, height;
+  if (sscanf(line, "map %1023s %f %lf %lf", file, &resolution, &x, &y) != 4) fprintf(stderr, "bad map\n"), exit(1);
+  FILE *picture = fopen(file, "rb");
+  if (picture == NULL || fscanf(picture, "P5 %u %u 255", &width, &height) != 2 || fgetc(picture) != '\n')
+    fprintf(stderr, "cyclone_peer: %s is no picture\n", file), exit(1);
+  nav_msgs_msg_dds__OccupancyGrid_ m = {.header = {{1, 0}, "map"}};
+  m.info.resolution = resolution, m.info.width = width, m.info.height = height;
+  m.info.origin.position.x = x, m.info.origin.position.y = y, m.info.origin.orientation.w = 1.0;
+  m.data._length = m.data._maximum = width * height;
+  m.data._buffer = malloc(width * height);
+  for (unsigned row = height; row-- > 0;)
+    for (unsigned column = 0; column < width; ++column) {
+      const int grey = fgetc(picture);
+      m.data._buffer[row * width + column] = grey < 90 ? 100 : grey > 250 ? 0 : -1;
+    }
+  fclose(picture);
+  must(dds_write(maps, &m), "map");
+  free(m.data._buffer);
+}
+
+static float ranges[kMostRanges];
+
+static void say_scan(dds_entity_t scans, const char *line) {
+  char frame[256];
+  long long stamp;
+  unsigned count = 0;
+  int used = 0;
+  sensor_msgs_msg_dds__LaserScan_ m = {.header = {{0, 0}, frame}};
+  if (sscanf(line, "scan %lld %255s %f %f %f %u%n", &stamp, frame, &m.angle_min, &m.angle_increment, &m.range_max, &count, &used) < 6 ||
+      count > kMostRanges)
+    fprintf(stderr, "cyclone_peer: bad line: %.60s\n", line), exit(1);
+  char *at = (char *)line + used;
+  for (unsigned i = 0; i < count; ++i) ranges[i] = strtof(at, &at);
+  set_time(&m.header.stamp, stamp);
+  m.angle_max = m.angle_min + (float)(count - 1) * m.angle_increment;
+  m.ranges._length = m.ranges._maximum = count, m.ranges._buffer = ranges;
+  must(dds_write(scans, &m), "scan");
+}
+
+static void wait_for_peers(const char *sample, dds_entity_t scan, dds_entity_t odom, dds_entity_t fixed, const Heard *heard) {
   const double begin = now();
+  double said = 0.0;
   for (;;) {
     dds_publication_matched_status_t a, b, c;
     dds_subscription_matched_status_t d, e;
@@ -135,6 +182,7 @@ static void wait_for_peers(dds_entity_t scan, dds_entity_t odom, dds_entity_t fi
     dds_get_subscription_matched_status(heard[0].entity, &d);
     dds_get_subscription_matched_status(heard[1].entity, &e);
     if (a.current_count && b.current_count && c.current_count && d.current_count && e.current_count) break;
+    if (sample != NULL && a.current_count && now() - said > 0.2) say_scan(scan, sample), said = now();
     if (now() - begin > 30.0) fprintf(stderr, "cyclone_peer: nobody is there after 30 s\n"), exit(1);
     rest(0.005);
   }
@@ -149,6 +197,7 @@ int main(int argc, char **argv) {
   dds_entity_t scans = writer("rt/scan", &sensor_msgs_msg_dds__LaserScan__desc, 0, 0);
   dds_entity_t odometry = writer("rt/odom", &nav_msgs_msg_dds__Odometry__desc, 1, 0);
   dds_entity_t fixed = writer("rt/tf_static", &tf2_msgs_msg_dds__TFMessage__desc, 1, 1);
+  dds_entity_t maps = writer("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1);
   dds_entity_t initial = writer("rt/initialpose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 0);
   const Heard heard[kTopics] = {
       {reader("rt/tf", &tf2_msgs_msg_dds__TFMessage__desc, 1, 0), print_tf},
@@ -156,17 +205,15 @@ int main(int argc, char **argv) {
       {reader("rt/particle_cloud", &nav2_msgs_msg_dds__ParticleCloud__desc, 0, 0), print_particles},
       {reader("rt/diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, 1, 0), print_diagnostics},
       {reader("ros_discovery_info", &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, 1, 1), print_nodes}};
-  wait_for_peers(scans, odometry, fixed, heard);
-  static float ranges[kMostRanges];
   char *line = NULL;
   size_t size = 0;
   long long first = -1;
-  const double begin = now();
+  double begin = now();
+  char *sample = NULL;
   while (getline(&line, &size, stdin) > 0) {
     char frame[256], child[256];
     double x, y, theta, v, w;
     long long stamp = -1;
-    int used = 0;
     if (sscanf(line, "scan %lld", &stamp) == 1 || sscanf(line, "odom %lld", &stamp) == 1) {
       if (first < 0) first = stamp;
       while (now() - begin < 1e-9 * (double)(stamp - first) / pace) hear(heard), rest(0.001);
@@ -189,24 +236,22 @@ int main(int argc, char **argv) {
       m.pose.pose.orientation.z = sin(theta / 2), m.pose.pose.orientation.w = cos(theta / 2);
       m.pose.covariance[0] = m.pose.covariance[7] = 0.01, m.pose.covariance[35] = 0.003;
       must(dds_write(initial, &m), "initialpose");
+    } else if (strncmp(line, "map ", 4) == 0) {
+      say_map(maps, line);
+    } else if (strncmp(line, "sample ", 7) == 0) {
+      sample = strdup(line + 7);
+    } else if (strncmp(line, "ready", 5) == 0) {
+      wait_for_peers(sample, scans, odometry, fixed, heard);
+      begin = now();
     } else {
-      sensor_msgs_msg_dds__LaserScan_ m = {.header = {{0, 0}, frame}};
-      unsigned count = 0;
-      if (sscanf(line, "scan %lld %255s %f %f %f %u%n", &stamp, frame, &m.angle_min, &m.angle_increment, &m.range_max, &count, &used) < 6 ||
-          count > kMostRanges)
-        return fprintf(stderr, "cyclone_peer: bad line: %.60s\n", line), 1;
-      char *at = line + used;
-      for (unsigned i = 0; i < count; ++i) ranges[i] = strtof(at, &at);
-      set_time(&m.header.stamp, stamp);
-      m.angle_max = m.angle_min + (float)(count - 1) * m.angle_increment;
-      m.ranges._length = m.ranges._maximum = count, m.ranges._buffer = ranges;
-      must(dds_write(scans, &m), "scan");
+      say_scan(scans, line);
     }
     hear(heard);
   }
   for (double quiet = now(); now() - quiet < 1.0; rest(0.005))
     if (hear(heard) > 0) quiet = now();
   free(line);
+  free(sample);
   dds_delete(participant);
   return 0;
 }

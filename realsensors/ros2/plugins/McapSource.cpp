@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "Bag.hpp"
+#include "MapWorld.hpp"
 #include "ortung/base/Angles.hpp"
-#include "ortung/base/NewFile.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/core/SourceHelp.hpp"
 #include "ortung/core/SourceOptions.hpp"
@@ -17,7 +17,6 @@
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
-#include "ortung/realsensors/MapFiles.hpp"
 #include "ortung/realsensors/Scanner.hpp"
 #include "ortung/ros2/RobotTopics.hpp"
 
@@ -263,33 +262,7 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
     throw std::runtime_error(path_ +
                              ": found no nav_msgs/msg/OccupancyGrid, expected one to make "
                              "a world of");
-  constexpr int kOccupiedFrom = 65;  // as map_server's own map_saver has it
-  constexpr int kFreeTo = 25;
-  constexpr char kOccupied = 0;
-  constexpr char kUnknown = static_cast<char>(205);
-  constexpr char kFree = static_cast<char>(254);
-  std::string picture =
-      "P5\n" + std::to_string(map_->width) + " " + std::to_string(map_->height) + "\n255\n";
-  for (std::size_t row = map_->height; row-- > 0;) {
-    for (std::size_t column = 0; column < map_->width; ++column) {
-      const std::int8_t value = map_->data[row * map_->width + column];
-      picture += value >= kOccupiedFrom           ? kOccupied
-                 : value >= 0 && value <= kFreeTo ? kFree
-                                                  : kUnknown;
-    }
-  }
-  std::filesystem::path image = file;
-  image.replace_extension(".pgm");
-  std::filesystem::path yaml = file;
-  yaml.replace_extension(".yaml");
-  writeFile(image, picture);
-  writeFile(yaml, "image: " + image.filename().string() +
-                      "\nresolution: " + tomlNumber(plain(static_cast<double>(map_->resolution))) +
-                      "\norigin: [" + tomlNumber(map_->origin.position.x) + ", " +
-                      tomlNumber(map_->origin.position.y) +
-                      ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
-  writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n" +
-                      gridToml(yaml.filename().string()));
+  writeWorldOf(*map_, file);
 }
 
 /// The text of `ortung import mcap --help`.

@@ -1,0 +1,62 @@
+#include "MapWorld.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "ortung/base/NewFile.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
+#include "ortung/realsensors/MapFiles.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+/// Rounds a float of a message to the decimal from which it was made.
+double plain(double number) { return std::round(number * 1e6) / 1e6; }
+
+}  // namespace
+
+std::string whyNoWorld(const OccupancyGrid& map) {
+  const Pose2 origin = toPose2(map.origin);
+  constexpr double kLevel = 1e-6;  // [rad]
+  const bool isGrid = map.resolution > 0.0F && map.resolution <= 100.0F && isPlausible(origin) &&
+                      map.width > 0 && map.height > 0 &&
+                      map.data.size() / map.width == map.height && map.data.size() % map.width == 0;
+  if (isGrid && std::abs(origin.theta) <= kLevel) return "";
+  return "found a map of " + std::to_string(map.width) + " x " + std::to_string(map.height) +
+         " cells of " + std::to_string(map.resolution) + " m with " +
+         std::to_string(map.data.size()) + " values, turned by " + std::to_string(origin.theta) +
+         " rad, expected a value a cell, not turned";
+}
+
+void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
+  constexpr int kOccupiedFrom = 65;  // as map_server's own map_saver has it
+  constexpr int kFreeTo = 25;
+  constexpr char kOccupied = 0;
+  constexpr char kUnknown = static_cast<char>(205);
+  constexpr char kFree = static_cast<char>(254);
+  std::string picture =
+      "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
+  for (std::size_t row = map.height; row-- > 0;) {
+    for (std::size_t column = 0; column < map.width; ++column) {
+      const std::int8_t value = map.data[row * map.width + column];
+      picture += value >= kOccupiedFrom           ? kOccupied
+                 : value >= 0 && value <= kFreeTo ? kFree
+                                                  : kUnknown;
+    }
+  }
+  std::filesystem::path image = file;
+  image.replace_extension(".pgm");
+  std::filesystem::path yaml = file;
+  yaml.replace_extension(".yaml");
+  writeFile(image, picture);
+  writeFile(yaml, "image: " + image.filename().string() + "\nresolution: " +
+                      tomlNumber(plain(static_cast<double>(map.resolution))) + "\norigin: [" +
+                      tomlNumber(map.origin.position.x) + ", " + tomlNumber(map.origin.position.y) +
+                      ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n" +
+                      gridToml(yaml.filename().string()));
+}
+
+}  // namespace ortung::ros2

@@ -1,0 +1,179 @@
+#include "LiveSetup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "MapWorld.hpp"
+#include "ScanShape.hpp"
+#include "ortung/base/NewFile.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/realsensors/LogSource.hpp"
+#include "ortung/realsensors/Scanner.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+constexpr std::size_t kMostFrames = 4096;
+constexpr std::size_t kMostComplaints = 32;
+constexpr std::chrono::milliseconds kLook{100};  ///< between questions whether to go on
+constexpr std::chrono::seconds kPatience{2};     ///< for frames of scanners
+constexpr double kUsefulRange = 30.0;            ///< of scanners that do not say theirs [m]
+constexpr double kUpright = 0.98;                ///< cosine of some 11 degrees
+
+/// Rounds a float of a message to the decimal from which it was made.
+double plain(double number) { return std::round(number * 1e6) / 1e6; }
+
+/// A topic as part of a feature's name.
+std::string cleaned(const std::string& topic) {
+  std::string name;
+  for (const char c : topic) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (isPlain || !name.empty()) name += isPlain ? c : '_';
+  }
+  return name.empty() ? "scan" : name;
+}
+
+}  // namespace
+
+LiveSetup::LiveSetup(Options options, Participant& node)
+    : options_(std::move(options)), scans_(options_.scans.size()) {
+  node.subscribe(options_.map, OccupancyGrid::kType, Qos::kLatched,
+                 [this](std::string_view cdr) { takeMap(cdr); });
+  node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
+                 [this](std::string_view cdr) { takeFrames(cdr); });
+  for (std::size_t i = 0; i < options_.scans.size(); ++i)
+    node.subscribe(options_.scans[i], LaserScan::kType, Qos::kSensor,
+                   [this, i](std::string_view cdr) { takeScan(i, cdr); });
+}
+
+std::string LiveSetup::featureOf(const std::string& topic) { return cleaned(topic) + "/LRF/scan"; }
+
+void LiveSetup::complain(const std::string& what) {
+  if (complaints_.size() < kMostComplaints) complaints_.push_back(what);
+}
+
+void LiveSetup::takeMap(std::string_view cdr) {
+  std::string why;
+  auto map = fromCdr<OccupancyGrid>(cdr, why);
+  if (map) why = whyNoWorld(*map);
+  // Only what the map shows counts: map_server says the time anew.
+  std::size_t digest = 0;
+  if (why.empty()) {
+    map->header = {};
+    map->mapLoadTime = 0;
+    digest = std::hash<std::string>()(toCdr(*map));
+  }
+  const std::lock_guard lock(mutex_);
+  if (!why.empty()) return complain(options_.map + ": " + why);
+  if (digest == mapDigest_) return;
+  mapDigest_ = digest;
+  newMap_ = std::move(map);
+  arrived_.notify_all();
+}
+
+void LiveSetup::takeScan(std::size_t scanner, std::string_view cdr) {
+  const std::lock_guard lock(mutex_);
+  if (scans_[scanner]) return;
+  std::string why;
+  auto scan = fromCdr<LaserScan>(cdr, why);
+  try {
+    if (scan) ScanShape shape(*scan);
+  } catch (const std::invalid_argument& error) {
+    why = error.what();
+  }
+  if (!why.empty()) return complain(options_.scans[scanner] + ": " + why);
+  scans_[scanner] = std::move(scan);
+  arrived_.notify_all();
+}
+
+void LiveSetup::takeFrames(std::string_view cdr) {
+  std::string why;
+  const auto all = fromCdr<TfMessage>(cdr, why);
+  const std::lock_guard lock(mutex_);
+  if (!all) return complain("/tf_static: " + why);
+  for (const TransformStamped& one : all->transforms)
+    if (frames_.size() < kMostFrames || frames_.hasFrame(one.childFrame)) frames_.add(one, true);
+  arrived_.notify_all();
+}
+
+bool LiveSetup::knowsScanners() const {
+  return std::all_of(scans_.begin(), scans_.end(),
+                     [](const auto& scan) { return scan.has_value(); });
+}
+
+bool LiveSetup::knowsMounts() const {
+  return std::all_of(scans_.begin(), scans_.end(), [&](const auto& scan) {
+    return frames_.find(scan->header.frame, options_.base).has_value();
+  });
+}
+
+bool LiveSetup::wait(const std::function<bool()>& goOn, const std::function<bool()>& isThere) {
+  std::unique_lock lock(mutex_);
+  while (!isThere()) {
+    lock.unlock();
+    if (!goOn()) return false;
+    lock.lock();
+    if (!isThere()) arrived_.wait_for(lock, kLook);
+  }
+  return true;
+}
+
+bool LiveSetup::waitForMap(const std::function<bool()>& goOn) {
+  return wait(goOn, [this] { return newMap_.has_value(); });
+}
+
+bool LiveSetup::waitForScanners(const std::function<bool()>& goOn) {
+  if (!wait(goOn, [this] { return knowsScanners(); })) return false;
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  return wait(goOn, [&] { return knowsMounts() || std::chrono::steady_clock::now() > end; });
+}
+
+bool LiveSetup::hasNewMap() const {
+  const std::lock_guard lock(mutex_);
+  return newMap_.has_value();
+}
+
+void LiveSetup::writeWorld(const std::filesystem::path& file) {
+  std::optional<OccupancyGrid> map;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(map, newMap_);
+  }
+  if (!map) throw std::runtime_error(options_.map + ": there is no new map");
+  writeWorldOf(*map, file);
+}
+
+void LiveSetup::writeRobot(const std::filesystem::path& file) const {
+  const std::lock_guard lock(mutex_);
+  std::string text = robotHead(file.stem().string());
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    const ScanShape shape(*scans_[i]);
+    const auto found = frames_.find(shape.frame(), options_.base);
+    Pose2 mount;
+    bool isUpsideDown = false;
+    if (found) {
+      const Eigen::Matrix3d turn = found->linear();
+      if (std::abs(turn(2, 2)) < kUpright)
+        throw std::runtime_error(options_.scans[i] +
+                                 ": the scanner is tilted, expected a level one");
+      isUpsideDown = turn(2, 2) < 0.0;
+      mount = {plain(found->translation().x()), plain(found->translation().y()),
+               std::atan2(turn(1, 0), turn(0, 0))};
+    }
+    Scanner scanner = shape.scanner(isUpsideDown);
+    scanner.mount = mount;
+    scanner.maxRange = shape.maxRange() > 0.0 ? plain(shape.maxRange()) : kUsefulRange;
+    const double period = static_cast<double>(scans_[i]->scanTime);
+    text += scannerToml(scanner, period >= 0.001 && period <= 10.0 ? period : 0.1,
+                        parseSensorId(featureOf(options_.scans[i])));
+  }
+  writeFile(file, text);
+}
+
+std::vector<std::string> LiveSetup::complaints() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(complaints_, {});
+}
+
+}  // namespace ortung::ros2

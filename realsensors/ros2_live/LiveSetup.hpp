@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "FrameTree.hpp"
+#include "Participant.hpp"
+#include "ortung/ros2/Messages.hpp"
+
+namespace ortung::ros2 {
+
+/// What a robot and its surroundings are, as they say in ROS 2: the map, and scanners with their
+/// mounts. It listens as long as it lives. Thread-safe.
+class LiveSetup {
+ public:
+  struct Options {
+    std::vector<std::string> scans;  ///< topics
+    std::string base = "base_footprint";
+    std::string map = "map";  ///< topic of the map
+  };
+  LiveSetup(Options options, Participant& node);
+
+  /// Waits for a map that was not written yet. @param goOn asked now and then
+  /// @return whether there is one
+  bool waitForMap(const std::function<bool()>& goOn);
+  /// Waits for a scan of each scanner, and a while for the frames in which they are.
+  bool waitForScanners(const std::function<bool()>& goOn);
+  /// Whether a map has come that was not written yet.
+  bool hasNewMap() const;
+
+  /// Writes the newest map as a world. @throws std::runtime_error
+  void writeWorld(const std::filesystem::path& file);
+  /// Writes a robot file with the scanners, whose features are the topics' names.
+  /// @throws std::runtime_error
+  void writeRobot(const std::filesystem::path& file) const;
+  /// Name of the feature that writeRobot() gives to a topic of scans, e.g. "scan/LRF/scan".
+  static std::string featureOf(const std::string& topic);
+
+  /// What was wrong with messages, since it was asked last.
+  std::vector<std::string> complaints();
+
+ private:
+  void takeMap(std::string_view cdr);
+  void takeScan(std::size_t scanner, std::string_view cdr);
+  void takeFrames(std::string_view cdr);
+  bool knowsScanners() const;
+  bool knowsMounts() const;
+  bool wait(const std::function<bool()>& goOn, const std::function<bool()>& isThere);
+  void complain(const std::string& what);
+
+  const Options options_;
+  mutable std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::optional<OccupancyGrid> newMap_;
+  std::size_t mapDigest_ = 0;  ///< of the newest map's bytes
+  std::vector<std::optional<LaserScan>> scans_;
+  FrameTree frames_;
+  std::vector<std::string> complaints_;
+};
+
+}  // namespace ortung::ros2
