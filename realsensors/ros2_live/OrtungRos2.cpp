@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <future>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -172,11 +173,28 @@ void run(Arguments& arguments) {
   localization.emplace(arguments.localization);
   localization->listen(node);
   std::cout << "ortung-ros2: localizing" << std::endl;
+  std::future<std::optional<std::filesystem::path>>
+      learned;  // in the background: the robot drives on
+  const auto isLearned = [&] {
+    return learned.valid() &&
+           learned.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
   while (!isStopped) {
-    localization->run([&] { return !isStopped && !(setup && setup->hasNewMap()); });
+    localization->run([&] {
+      return !isStopped && !isLearned() && (learned.valid() || !setup || !setup->hasNewMap());
+    });
     if (isStopped) break;
-    std::cout << "ortung-ros2: another map" << std::endl;
-    if (const auto tables = learning->next()) localization->changeTables(*tables);
+    if (!isLearned()) {
+      std::cout << "ortung-ros2: another map" << std::endl;
+      learned = std::async(std::launch::async, [&] { return learning->next(); });
+      continue;
+    }
+    try {
+      if (const auto tables = learned.get()) localization->changeTables(*tables);
+    } catch (const std::exception& error) {
+      std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what()
+                << std::endl;
+    }
   }
 }
 
