@@ -1,5 +1,6 @@
-// cyclone_peer DOMAIN PACE  a robot of ROS 2 on Cyclone DDS, which knows nothing of ours: says what the lines at its standard input
-// tell, PACE times as fast as their stamps, and prints what it hears.
+// cyclone_peer DOMAIN PACE  a robot of ROS 2 on Cyclone DDS, which knows nothing of ours: says what
+// the lines at its standard input tell, PACE times as fast as their stamps, and prints what it
+// hears.
 //   static PARENT CHILD X Y THETA
 //   odom STAMP_NS X Y THETA V W
 //   scan STAMP_NS FRAME ANGLE_MIN STEP RANGE_MAX COUNT RANGE...
@@ -7,7 +8,8 @@
 //   map FILE.pgm RESOLUTION X Y      as map_server does with black, white and grey
 //   sample scan ...                  what `ready` says meanwhile
 //   ready                            goes on once everybody is there
-// It prints "matched SECONDS" once all it needs is there, "node ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
+// It prints "matched SECONDS" once all it needs is there, "node ...", "tf ...", "pose ...",
+// "particles ...", "diagnostics ...".
 #define _GNU_SOURCE
 #include <dds/dds.h>
 #include <math.h>
@@ -22,7 +24,7 @@ enum { kMostRanges = 65536, kTopics = 5 };
 
 static dds_entity_t participant;
 
-static void must(dds_return_t result, const char *what) {
+static void must(dds_return_t result, const char* what) {
   if (result >= 0) return;
   fprintf(stderr, "cyclone_peer: %s: %s\n", what, dds_strretcode(-result));
   exit(1);
@@ -38,85 +40,94 @@ static void rest(double seconds) {
   if (seconds > 0.0) dds_sleepfor((dds_duration_t)(seconds * 1e9));
 }
 
-static dds_qos_t *qos_of(int reliable, int latched) {
-  dds_qos_t *qos = dds_create_qos();
-  dds_qset_reliability(qos, reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(100));
+static dds_qos_t* qos_of(int reliable, int latched) {
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       DDS_MSECS(100));
   dds_qset_durability(qos, latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, latched ? 1 : 1000);
   if (latched) dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, 1, -1, -1, -1);
   return qos;
 }
 
-static dds_entity_t writer(const char *name, const dds_topic_descriptor_t *type, int reliable, int latched) {
+static dds_entity_t writer(const char* name, const dds_topic_descriptor_t* type, int reliable,
+                           int latched) {
   dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
   must(topic, name);
-  dds_qos_t *qos = qos_of(reliable, latched);
+  dds_qos_t* qos = qos_of(reliable, latched);
   dds_entity_t made = dds_create_writer(participant, topic, qos, NULL);
   must(made, name);
   dds_delete_qos(qos);
   return made;
 }
 
-static dds_entity_t reader(const char *name, const dds_topic_descriptor_t *type, int reliable, int latched) {
+static dds_entity_t reader(const char* name, const dds_topic_descriptor_t* type, int reliable,
+                           int latched) {
   dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
   must(topic, name);
-  dds_qos_t *qos = qos_of(reliable, latched);
+  dds_qos_t* qos = qos_of(reliable, latched);
   dds_entity_t made = dds_create_reader(participant, topic, qos, NULL);
   must(made, name);
   dds_delete_qos(qos);
   return made;
 }
 
-static long long nanoseconds(const builtin_interfaces_msg_dds__Time_ *t) { return 1000000000LL * t->sec + t->nanosec; }
+static long long nanoseconds(const builtin_interfaces_msg_dds__Time_* t) {
+  return 1000000000LL * t->sec + t->nanosec;
+}
 
-static void set_time(builtin_interfaces_msg_dds__Time_ *t, long long stamp) {
+static void set_time(builtin_interfaces_msg_dds__Time_* t, long long stamp) {
   t->sec = (int32_t)(stamp / 1000000000LL);
   t->nanosec = (uint32_t)(stamp % 1000000000LL);
 }
 
-static void print_tf(const void *sample) {
-  const tf2_msgs_msg_dds__TFMessage_ *m = sample;
+static void print_tf(const void* sample) {
+  const tf2_msgs_msg_dds__TFMessage_* m = sample;
   for (uint32_t i = 0; i < m->transforms._length; ++i) {
-    const geometry_msgs_msg_dds__TransformStamped_ *t = &m->transforms._buffer[i];
-    printf("tf %lld %s %s %.17g %.17g %.17g %.17g\n", nanoseconds(&t->header.stamp), t->header.frame_id, t->child_frame_id,
-           t->transform.translation.x, t->transform.translation.y, t->transform.rotation.z, t->transform.rotation.w);
+    const geometry_msgs_msg_dds__TransformStamped_* t = &m->transforms._buffer[i];
+    printf("tf %lld %s %s %.17g %.17g %.17g %.17g\n", nanoseconds(&t->header.stamp),
+           t->header.frame_id, t->child_frame_id, t->transform.translation.x,
+           t->transform.translation.y, t->transform.rotation.z, t->transform.rotation.w);
   }
 }
-static void print_pose(const void *sample) {
-  const geometry_msgs_msg_dds__PoseWithCovarianceStamped_ *m = sample;
-  printf("pose %lld %s %.17g %.17g %.17g %.17g %.6g %.6g\n", nanoseconds(&m->header.stamp), m->header.frame_id, m->pose.pose.position.x,
-         m->pose.pose.position.y, m->pose.pose.orientation.z, m->pose.pose.orientation.w, m->pose.covariance[0], m->pose.covariance[35]);
+static void print_pose(const void* sample) {
+  const geometry_msgs_msg_dds__PoseWithCovarianceStamped_* m = sample;
+  printf("pose %lld %s %.17g %.17g %.17g %.17g %.6g %.6g\n", nanoseconds(&m->header.stamp),
+         m->header.frame_id, m->pose.pose.position.x, m->pose.pose.position.y,
+         m->pose.pose.orientation.z, m->pose.pose.orientation.w, m->pose.covariance[0],
+         m->pose.covariance[35]);
 }
-static void print_particles(const void *sample) {
-  const nav2_msgs_msg_dds__ParticleCloud_ *m = sample;
+static void print_particles(const void* sample) {
+  const nav2_msgs_msg_dds__ParticleCloud_* m = sample;
   double sum = 0.0;
   for (uint32_t i = 0; i < m->particles._length; ++i) sum += m->particles._buffer[i].weight;
   printf("particles %lld %u %.9f\n", nanoseconds(&m->header.stamp), m->particles._length, sum);
 }
-static void print_diagnostics(const void *sample) {
-  const diagnostic_msgs_msg_dds__DiagnosticArray_ *m = sample;
+static void print_diagnostics(const void* sample) {
+  const diagnostic_msgs_msg_dds__DiagnosticArray_* m = sample;
   for (uint32_t i = 0; i < m->status._length; ++i)
-    printf("diagnostics %lld %d %s %s\n", nanoseconds(&m->header.stamp), m->status._buffer[i].level, m->status._buffer[i].name,
-           m->status._buffer[i].message);
+    printf("diagnostics %lld %d %s %s\n", nanoseconds(&m->header.stamp), m->status._buffer[i].level,
+           m->status._buffer[i].name, m->status._buffer[i].message);
 }
-static void print_nodes(const void *sample) {
-  const rmw_dds_common_msg_dds__ParticipantEntitiesInfo_ *m = sample;
+static void print_nodes(const void* sample) {
+  const rmw_dds_common_msg_dds__ParticipantEntitiesInfo_* m = sample;
   for (uint32_t i = 0; i < m->node_entities_info_seq._length; ++i) {
-    const rmw_dds_common_msg_dds__NodeEntitiesInfo_ *n = &m->node_entities_info_seq._buffer[i];
-    printf("node %s %s %u %u\n", n->node_namespace, n->node_name, n->reader_gid_seq._length, n->writer_gid_seq._length);
+    const rmw_dds_common_msg_dds__NodeEntitiesInfo_* n = &m->node_entities_info_seq._buffer[i];
+    printf("node %s %s %u %u\n", n->node_namespace, n->node_name, n->reader_gid_seq._length,
+           n->writer_gid_seq._length);
   }
 }
 
 typedef struct {
   dds_entity_t entity;
-  void (*print)(const void *);
+  void (*print)(const void*);
 } Heard;
 
-static int hear(const Heard *heard) {
+static int hear(const Heard* heard) {
   int count = 0;
   for (int i = 0; i < kTopics; ++i) {
     for (;;) {
-      void *sample = NULL;
+      void* sample = NULL;
       dds_sample_info_t info;
       if (dds_take(heard[i].entity, &sample, &info, 1, 1) <= 0) break;
       if (info.valid_data) heard[i].print(sample), ++count;
@@ -127,14 +138,16 @@ static int hear(const Heard *heard) {
   return count;
 }
 
-static void say_map(dds_entity_t maps, const char *line) {
+static void say_map(dds_entity_t maps, const char* line) {
   char file[1024];
   float resolution;
   double x, y;
   unsigned width, height;
-  if (sscanf(line, "map %1023s %f %lf %lf", file, &resolution, &x, &y) != 4) fprintf(stderr, "bad map\n"), exit(1);
-  FILE *picture = fopen(file, "rb");
-  if (picture == NULL || fscanf(picture, "P5 %u %u 255", &width, &height) != 2 || fgetc(picture) != '\n')
+  if (sscanf(line, "map %1023s %f %lf %lf", file, &resolution, &x, &y) != 4)
+    fprintf(stderr, "bad map\n"), exit(1);
+  FILE* picture = fopen(file, "rb");
+  if (picture == NULL || fscanf(picture, "P5 %u %u 255", &width, &height) != 2 ||
+      fgetc(picture) != '\n')
     fprintf(stderr, "cyclone_peer: %s is no picture\n", file), exit(1);
   nav_msgs_msg_dds__OccupancyGrid_ m = {.header = {{1, 0}, "map"}};
   m.info.resolution = resolution, m.info.width = width, m.info.height = height;
@@ -153,16 +166,17 @@ static void say_map(dds_entity_t maps, const char *line) {
 
 static float ranges[kMostRanges];
 
-static void say_scan(dds_entity_t scans, const char *line) {
+static void say_scan(dds_entity_t scans, const char* line) {
   char frame[256];
   long long stamp;
   unsigned count = 0;
   int used = 0;
   sensor_msgs_msg_dds__LaserScan_ m = {.header = {{0, 0}, frame}};
-  if (sscanf(line, "scan %lld %255s %f %f %f %u%n", &stamp, frame, &m.angle_min, &m.angle_increment, &m.range_max, &count, &used) < 6 ||
+  if (sscanf(line, "scan %lld %255s %f %f %f %u%n", &stamp, frame, &m.angle_min, &m.angle_increment,
+             &m.range_max, &count, &used) < 6 ||
       count > kMostRanges)
     fprintf(stderr, "cyclone_peer: bad line: %.60s\n", line), exit(1);
-  char *at = (char *)line + used;
+  char* at = (char*)line + used;
   for (unsigned i = 0; i < count; ++i) ranges[i] = strtof(at, &at);
   set_time(&m.header.stamp, stamp);
   m.angle_max = m.angle_min + (float)(count - 1) * m.angle_increment;
@@ -170,7 +184,8 @@ static void say_scan(dds_entity_t scans, const char *line) {
   must(dds_write(scans, &m), "scan");
 }
 
-static void wait_for_peers(const char *sample, dds_entity_t scan, dds_entity_t odom, dds_entity_t fixed, const Heard *heard) {
+static void wait_for_peers(const char* sample, dds_entity_t scan, dds_entity_t odom,
+                           dds_entity_t fixed, const Heard* heard) {
   const double begin = now();
   double said = 0.0;
   for (;;) {
@@ -181,15 +196,18 @@ static void wait_for_peers(const char *sample, dds_entity_t scan, dds_entity_t o
     dds_get_publication_matched_status(fixed, &c);
     dds_get_subscription_matched_status(heard[0].entity, &d);
     dds_get_subscription_matched_status(heard[1].entity, &e);
-    if (a.current_count && b.current_count && c.current_count && d.current_count && e.current_count) break;
-    if (sample != NULL && a.current_count && now() - said > 0.2) say_scan(scan, sample), said = now();
-    if (now() - begin > 30.0) fprintf(stderr, "cyclone_peer: nobody is there after 30 s\n"), exit(1);
+    if (a.current_count && b.current_count && c.current_count && d.current_count && e.current_count)
+      break;
+    if (sample != NULL && a.current_count && now() - said > 0.2)
+      say_scan(scan, sample), said = now();
+    if (now() - begin > 30.0)
+      fprintf(stderr, "cyclone_peer: nobody is there after 30 s\n"), exit(1);
     rest(0.005);
   }
   printf("matched %.3f\n", now() - begin);
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   if (argc != 3) return fprintf(stderr, "usage: cyclone_peer DOMAIN PACE\n"), 2;
   const double pace = atof(argv[2]);
   participant = dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL);
@@ -198,18 +216,22 @@ int main(int argc, char **argv) {
   dds_entity_t odometry = writer("rt/odom", &nav_msgs_msg_dds__Odometry__desc, 1, 0);
   dds_entity_t fixed = writer("rt/tf_static", &tf2_msgs_msg_dds__TFMessage__desc, 1, 1);
   dds_entity_t maps = writer("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1);
-  dds_entity_t initial = writer("rt/initialpose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 0);
+  dds_entity_t initial =
+      writer("rt/initialpose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 0);
   const Heard heard[kTopics] = {
       {reader("rt/tf", &tf2_msgs_msg_dds__TFMessage__desc, 1, 0), print_tf},
-      {reader("rt/amcl_pose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 1), print_pose},
+      {reader("rt/amcl_pose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 1),
+       print_pose},
       {reader("rt/particle_cloud", &nav2_msgs_msg_dds__ParticleCloud__desc, 0, 0), print_particles},
-      {reader("rt/diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, 1, 0), print_diagnostics},
-      {reader("ros_discovery_info", &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, 1, 1), print_nodes}};
-  char *line = NULL;
+      {reader("rt/diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, 1, 0),
+       print_diagnostics},
+      {reader("ros_discovery_info", &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, 1, 1),
+       print_nodes}};
+  char* line = NULL;
   size_t size = 0;
   long long first = -1;
   double begin = now();
-  char *sample = NULL;
+  char* sample = NULL;
   while (getline(&line, &size, stdin) > 0) {
     char frame[256], child[256];
     double x, y, theta, v, w;
@@ -219,7 +241,8 @@ int main(int argc, char **argv) {
       while (now() - begin < 1e-9 * (double)(stamp - first) / pace) hear(heard), rest(0.001);
     }
     if (sscanf(line, "static %255s %255s %lf %lf %lf", frame, child, &x, &y, &theta) == 5) {
-      geometry_msgs_msg_dds__TransformStamped_ one = {{{0, 0}, frame}, child, {{x, y, 0}, {0, 0, sin(theta / 2), cos(theta / 2)}}};
+      geometry_msgs_msg_dds__TransformStamped_ one = {
+          {{0, 0}, frame}, child, {{x, y, 0}, {0, 0, sin(theta / 2), cos(theta / 2)}}};
       tf2_msgs_msg_dds__TFMessage_ m = {{1, 1, &one, false}};
       must(dds_write(fixed, &m), "tf_static");
       rest(0.2);

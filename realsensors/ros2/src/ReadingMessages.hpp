@@ -43,7 +43,7 @@ std::optional<OccupancyGrid> changesMessage(const Message& reading, Header heade
 /// How far a localization can be relied on: OK while tracking, WARN while uncertain, else ERROR.
 /// @param name of the localization among all parts of the robot
 ORTUNG_API DiagnosticArray diagnosticsMessage(const TrackData::Reading& track,
-                                   const ProtectionData::Reading& bound, const std::string& name,
-                                   Header header);
+                                              const ProtectionData::Reading& bound,
+                                              const std::string& name, Header header);
 
 }  // namespace ortung::ros2
