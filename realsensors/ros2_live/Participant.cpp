@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "Cdr.hpp"
+#include "TypeHashes.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -98,7 +99,8 @@ class Listener : public dds::DataReaderListener {
 };
 
 template <class Endpoint>
-void setQos(Endpoint& qos, Qos wanted, int depth) {
+void setQos(Endpoint& qos, Qos wanted, int depth, const std::string& userData) {
+  qos.user_data().setValue({userData.begin(), userData.end()});
   const bool isLatched = wanted == Qos::kLatched;
   qos.reliability().kind =
       wanted == Qos::kSensor ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
@@ -162,7 +164,13 @@ struct Participant::Parts {
   std::mutex mutex;  ///< for all but these numbers
 
   dds::Topic* topic(const std::string& name, const std::string& type);
-  dds::DataWriter* writer(const std::string& name, const std::string& type, Qos qos);
+  dds::DataWriter* writer(const std::string& name, std::string_view type, Qos qos);
+  /// What an endpoint says of its type.
+  std::string userDataOf(std::string_view type) const {
+    const std::string_view hash = typeHashOf(type);
+    if (options.distro == Distro::kHumble || hash.empty()) return "";
+    return "typehash=RIHS01_" + std::string(hash) + ";";
+  }
   void tellGraph();
 };
 
@@ -176,13 +184,13 @@ dds::Topic* Participant::Parts::topic(const std::string& name, const std::string
   return known;
 }
 
-dds::DataWriter* Participant::Parts::writer(const std::string& name, const std::string& type,
+dds::DataWriter* Participant::Parts::writer(const std::string& name, std::string_view type,
                                             Qos qos) {
   dds::DataWriterQos wanted = dds::DATAWRITER_QOS_DEFAULT;
-  setQos(wanted, qos, kDepth);
+  setQos(wanted, qos, kDepth, userDataOf(type));
   // Sent by a thread of DDS, so that who publishes does not wait for the network.
   wanted.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
-  dds::DataWriter* const made = publisher->create_datawriter(topic(name, type), wanted);
+  dds::DataWriter* const made = publisher->create_datawriter(topic(name, ddsType(type)), wanted);
   if (made == nullptr) throw std::runtime_error("DDS can't write " + name);
   return made;
 }
@@ -234,8 +242,8 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   p.subscriber = p.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   if (p.publisher == nullptr || p.subscriber == nullptr)
     throw std::runtime_error("DDS has no room for a node");
-  p.graph = p.writer("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
-                     Qos::kLatched);
+  p.graph =
+      p.writer("ros_discovery_info", "rmw_dds_common/msg/ParticipantEntitiesInfo", Qos::kLatched);
   p.tellGraph();
 }
 
@@ -251,7 +259,7 @@ void Participant::subscribe(const std::string& topic, std::string_view type, Qos
   Parts& p = *parts_;
   const std::lock_guard lock(p.mutex);
   dds::DataReaderQos wanted = dds::DATAREADER_QOS_DEFAULT;
-  setQos(wanted, qos, kReading);
+  setQos(wanted, qos, kReading, p.userDataOf(type));
   p.listeners.push_back(std::make_unique<Listener>(std::move(taker), p.refused));
   dds::DataReader* const reader =
       p.subscriber->create_datareader(p.topic(ddsTopic(topic), ddsType(type)), wanted,
@@ -265,7 +273,7 @@ void Participant::subscribe(const std::string& topic, std::string_view type, Qos
 Participant::Sender Participant::publish(const std::string& topic, std::string_view type, Qos qos) {
   Parts& p = *parts_;
   const std::lock_guard lock(p.mutex);
-  dds::DataWriter* const writer = p.writer(ddsTopic(topic), ddsType(type), qos);
+  dds::DataWriter* const writer = p.writer(ddsTopic(topic), type, qos);
   p.writers.push_back(writer);
   p.writerIds.push_back(writer->guid());
   p.tellGraph();

@@ -18,7 +18,7 @@ enum class Qos : std::uint8_t {
 /// What a release of ROS has on the wire.
 enum class Distro : std::uint8_t {
   kHumble,  ///< identifiers of 24 bytes
-  kJazzy,   ///< of 16, since Iron
+  kJazzy,   ///< of 16, and endpoints tell the hash of their type, since Iron
 };
 
 /// A node of ROS 2 on DDS alone: topics, types and quality of service as rmw_fastrtps has them,

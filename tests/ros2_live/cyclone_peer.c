@@ -184,6 +184,22 @@ static void say_scan(dds_entity_t scans, const char* line) {
   must(dds_write(scans, &m), "scan");
 }
 
+// What the endpoints that write a topic say of themselves: the hash of its type, since Iron.
+static void print_user_data(const char* name, dds_entity_t topic_reader) {
+  dds_instance_handle_t writers[8];
+  const int count = dds_get_matched_publications(topic_reader, writers, 8);
+  for (int i = 0; i < count && i < 8; ++i) {
+    dds_builtintopic_endpoint_t* one = dds_get_matched_publication_data(topic_reader, writers[i]);
+    void* data = NULL;
+    size_t size = 0;
+    if (one == NULL) continue;
+    if (dds_qget_userdata(one->qos, &data, &size) && size > 0)
+      printf("userdata %s %.*s\n", name, (int)size, (char*)data);
+    dds_free(data);
+    dds_builtintopic_free_endpoint(one);
+  }
+}
+
 static void wait_for_peers(const char* sample, dds_entity_t scan, dds_entity_t odom,
                            dds_entity_t fixed, const Heard* heard) {
   const double begin = now();
@@ -205,6 +221,8 @@ static void wait_for_peers(const char* sample, dds_entity_t scan, dds_entity_t o
     rest(0.005);
   }
   printf("matched %.3f\n", now() - begin);
+  print_user_data("tf", heard[0].entity);
+  print_user_data("amcl_pose", heard[1].entity);
 }
 
 int main(int argc, char** argv) {

@@ -81,6 +81,10 @@ def main():
         [[seconds]] = [words[1:] for words in heard if words[0] == "matched"]
         expect(float(seconds) <= 2.0, "matched after %s s, expected 2" % seconds)
         check(heard, expected, lines, said)
+        expect(not any(words[0] == "userdata" for words in heard), "Humble has no type hashes")
+        told = [words[1:] for words in live(folder, [*known, "--distro", "jazzy"], ["ready"])[0] if words[0] == "userdata"]
+        expect(sorted(told) == [["amcl_pose", "typehash=RIHS01_26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e;"],
+                                ["tf", "typehash=RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087;"]], "type hashes: %s" % told)
         # The same by a map, a scan and a frame alone.
         yaml = dict(line.split(": ", 1) for line in base.with_suffix(".yaml").read_text().splitlines())
         x, y, _ = yaml["origin"].strip("[]").split(", ")

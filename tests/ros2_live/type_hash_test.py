@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""type_hash_test.py ROOT  the type hashes that the node tells (RIHS01: SHA-256 of a type's description, REP 2011 and 2016) are those of the
+types in messages.idl, and those that others have published."""
+import hashlib
+import json
+import pathlib
+import re
+import sys
+
+root = pathlib.Path(sys.argv[1])
+NUMBERS = {"int8": 2, "octet": 3, "long": 6, "unsigned long": 7, "float": 10, "double": 11, "boolean": 15, "string": 17}
+BYTE, ARRAY, SEQUENCE = 16, 48, 144
+PUBLISHED = {  # where others have them in public
+    "sensor_msgs/msg/LaserScan": "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
+    "nav_msgs/msg/Odometry": "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
+    "diagnostic_msgs/msg/DiagnosticArray": "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e",
+}
+
+
+def ros_name(name):
+    package, kind, _, own = name.split("::")
+    return "%s/%s/%s" % (package, kind, own.rstrip("_"))
+
+
+def structs(text):
+    """{type: [(field, IDL type, length)]}"""
+    text = re.sub(r"//.*", "", text)
+    found = {}
+    for package, body in re.findall(r"module (\w+) \{ module msg \{ module dds_ \{(.*?)\n\}; \}; \};", text, re.S):
+        for name, fields in re.findall(r"struct (\w+) \{(.*?)\};", body, re.S):
+            parts = [part.strip() for part in fields.split(";") if part.strip()]
+            found["%s::msg::dds_::%s" % (package, name)] = [re.fullmatch(r"(.*?) (\w+)(?:\[(\d+)\])?", part, re.S).groups() for part in parts]
+    return found
+
+
+def description(name, types):
+    fields = []
+    for kind, field, length in types[name]:
+        inner = re.fullmatch(r"sequence<(.*)>", kind)
+        plain = inner.group(1) if inner else kind
+        number = NUMBERS.get(plain, 1)
+        if (name.split("::")[-1], field) == ("DiagnosticStatus_", "level"):
+            number = BYTE  # which IDL does not tell from uint8
+        number += SEQUENCE if inner else ARRAY if length else 0
+        fields.append({"name": field, "type": {"type_id": number, "capacity": int(length or 0), "string_capacity": 0,
+                                               "nested_type_name": "" if plain in NUMBERS else ros_name(plain)}})
+    return {"type_name": ros_name(name), "fields": fields}
+
+
+def parts(name, types, found):
+    for kind, _, _ in types[name]:
+        plain = re.sub(r"sequence<(.*)>", r"\1", kind)
+        if plain not in NUMBERS and plain not in found:
+            found.add(plain)
+            parts(plain, types, found)
+    return found
+
+
+def hash_of(name, types):
+    whole = {"type_description": description(name, types),
+             "referenced_type_descriptions": sorted((description(part, types) for part in parts(name, types, set())), key=lambda d: d["type_name"])}
+    return hashlib.sha256(json.dumps(whole, separators=(", ", ": ")).encode()).hexdigest()
+
+
+def main():
+    types = structs((root / "tests/ros2_live/messages.idl").read_text())
+    hashes = {ros_name(name): hash_of(name, types) for name in types}
+    if len(sys.argv) > 2:
+        for name, digest in sorted(hashes.items()):
+            print('    {"%s",\n     "%s"},' % (name, digest))
+        return
+    told = dict(re.findall(r'\{"(\w+/msg/\w+)",\s*"([0-9a-f]{64})"\}', (root / "realsensors/ros2_live/TypeHashes.cpp").read_text()))
+    for name, digest in PUBLISHED.items():
+        if hashes[name] != digest:
+            sys.exit("failed: %s has %s, published is %s" % (name, hashes[name], digest))
+    for name, digest in told.items():
+        if hashes.get(name) != digest:
+            sys.exit("failed: the node tells %s for %s, expected %s" % (digest, name, hashes.get(name)))
+    if len(told) < 8:
+        sys.exit("failed: only %d types have a hash" % len(told))
+    print("%d hashes are right" % len(told))
+
+
+main()
