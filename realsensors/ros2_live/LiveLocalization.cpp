@@ -74,7 +74,8 @@ LiveLocalization::LiveLocalization(const Options& options)
     : options_(options),
       localization_(std::make_unique<Localization>(options.localization)),
       odometry_(onlyOf(localization_->container(), formats::kOdometry, options.odometry)->id()),
-      readings_(readingsOf(options, localization_->container())) {
+      readings_(readingsOf(options, localization_->container())),
+      transform_({options.map, options.odom, options.transformTolerance}) {
   if (!options.belief.empty() && std::filesystem::exists(options.belief))
     localization_->restoreBelief(options.belief);
   localization_->wantSamples(true);
@@ -103,17 +104,21 @@ void LiveLocalization::changeTables(const std::filesystem::path& tables) {
 
 void LiveLocalization::listen(Participant& node) {
   node_ = &node;
-  tf_ = node.publish("/tf", TfMessage::kType, Qos::kDefault);
+  transform_.sendBy(node.publish("/tf", TfMessage::kType, Qos::kDefault));
   pose_ = node.publish("/amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
   particles_ = node.publish("/particle_cloud", ParticleCloud::kType, Qos::kSensor);
   diagnostics_ = node.publish("/diagnostics", DiagnosticArray::kType, Qos::kDefault);
   node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, true); });
-  node.subscribe("/tf", TfMessage::kType, Qos::kDefault,
-                 [this](std::string_view cdr) { readings_.takeTransforms(cdr, false); });
+  node.subscribe("/tf", TfMessage::kType, Qos::kDefault, [this](std::string_view cdr) {
+    readings_.takeTransforms(cdr, false);
+    if (options_.odometry == "tf") followOdometry();
+  });
   if (options_.odometry != "tf")
-    node.subscribe(options_.odometry, Odometry::kType, Qos::kSensor,
-                   [this](std::string_view cdr) { readings_.takeOdometry(cdr); });
+    node.subscribe(options_.odometry, Odometry::kType, Qos::kSensor, [this](std::string_view cdr) {
+      readings_.takeOdometry(cdr);
+      followOdometry();
+    });
   for (std::size_t i = 0; i < options_.scans.size(); ++i) {
     const std::string topic = options_.scans[i].substr(0, options_.scans[i].find('='));
     node.subscribe(topic, LaserScan::kType, Qos::kSensor,
@@ -179,17 +184,9 @@ void LiveLocalization::tellDiagnostics() {
                                         options_.name, {nanoseconds(track->stamp()), ""})));
 }
 
-/// Tells where odometry is in the map for all odometry that has arrived, and a while ahead: who
-/// asks for a pose never has to guess.
-void LiveLocalization::tellTransform() {
-  const auto newest = readings_.newestOdometry();
-  if (!newest || !odomInMap_ || (toldAt_ && *newest == *toldAt_)) return;
-  toldAt_ = newest;
-  const auto ahead = static_cast<Timestamp>(options_.transformTolerance * 1e6);
-  TfMessage message;
-  message.transforms.push_back(
-      {{nanoseconds(*newest + ahead), options_.map}, options_.odom, fromPose2(*odomInMap_)});
-  tf_(toCdr(message));
+/// On a thread of DDS, which does not wait for the filter.
+void LiveLocalization::followOdometry() {
+  if (const auto newest = readings_.newestOdometry()) transform_.follow(*newest);
 }
 
 void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
@@ -210,7 +207,7 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   const auto here = moment.inOdometry ? localization_->estimate(stamp) : std::nullopt;
   // Who drives by it is better off with the place of before than with a guess.
   if (here && here->status != TrackStatus::kLost)
-    odomInMap_ = here->smooth * inverse(*moment.inOdometry);
+    transform_.correct(here->smooth * inverse(*moment.inOdometry));
 }
 
 void LiveLocalization::report() {
@@ -232,16 +229,15 @@ void LiveLocalization::run(const std::function<bool()>& goOn) {
   Clock::time_point reported = Clock::now();
   while (goOn()) {
     if (const auto moment = readings_.next(kLook)) onMoment(*moment);
-    tellTransform();
     const std::chrono::duration<double> since = Clock::now() - reported;
     if (since.count() < options_.reportSeconds) continue;
     reported = Clock::now();
     report();
-    if (!options_.belief.empty() && localization_->estimate(toldAt_.value_or(0)))
+    if (!options_.belief.empty() && transform_.isKnown())
       localization_->saveBelief(options_.belief);
   }
   report();
-  if (!options_.belief.empty() && odomInMap_) localization_->saveBelief(options_.belief);
+  if (!options_.belief.empty() && transform_.isKnown()) localization_->saveBelief(options_.belief);
 }
 
 }  // namespace ortung::ros2

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "LiveReadings.hpp"
+#include "MapTransform.hpp"
 #include "Participant.hpp"
 #include "ortung/run/Localization.hpp"
 
@@ -56,22 +57,20 @@ class LiveLocalization {
   void onMoment(const LiveReadings::Moment& moment);
   void tellPose(const PoseEstimate& estimate);
   void tellDiagnostics();
-  void tellTransform();
+  void followOdometry();
   void report();
 
   Options options_;
   std::unique_ptr<Localization> localization_;
   const SensorId odometry_;
   LiveReadings readings_;
+  MapTransform transform_;
   std::mutex mutex_;  ///< for initialPose_
   std::optional<InitialPose> initialPose_;
   Participant* node_ = nullptr;  ///< borrowed
-  Participant::Sender tf_, pose_, particles_, diagnostics_;
-  std::optional<Pose2> odomInMap_;       ///< of the newest estimate that was not lost
+  Participant::Sender pose_, particles_, diagnostics_;
   std::optional<Message> lastOdometry_;  ///< that the localization has
-  std::optional<Timestamp>
-      toldAt_;                    ///< stamp of the odometry that was followed by a transform last
-  std::uint64_t toldStatus_ = 0;  ///< sequence of the status that diagnostics had last
+  std::uint64_t toldStatus_ = 0;         ///< sequence of the status that diagnostics had last
   std::map<std::string, std::uint64_t> reported_;
 };
 

@@ -53,7 +53,7 @@ class LiveReadings {
   void takeOdometry(std::string_view cdr);
   void takeTransforms(std::string_view cdr, bool isStatic);
 
-  /// Waits for the next moment.
+  /// Waits for the next moment. @param longest then an empty one is returned
   /// @return nothing after stop()
   std::optional<Moment> next(std::chrono::milliseconds longest);
   /// Ends waiting, now and for ever.

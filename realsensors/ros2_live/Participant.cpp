@@ -1,6 +1,8 @@
 #include "Participant.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include <algorithm>
 #include <array>
@@ -223,6 +225,11 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   Parts& p = *parts_;
   p.options = options;
   dds::Log::SetVerbosity(dds::Log::Kind::Error);
+  // Within a process DDS would call the reader while it holds the writer, and so whoever publishes
+  // on what arrives at both waits for himself.
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(options.node);
   const std::string enclave = "enclave=/;";

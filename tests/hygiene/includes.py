@@ -20,7 +20,7 @@ BIGGEST_SHARE = 0.2
 FOREIGN = {
     r"Eigen/": r"^(?!.*/include/).*\.(cpp|hpp)$",
     r"CLI/": r"^(app/(module|program)/.*|realsensors/ros2_live/OrtungRos2)\.cpp$",
-    r"fastdds/": r"^realsensors/ros2_live/Participant\.cpp$",
+    r"fast(dds|rtps)/": r"^realsensors/ros2_live/Participant\.cpp$",
     r"fmt/|spdlog/|stb/|dlib/": r"^app/",
     r"pybind11/": r"^python/",
     r"toml\+\+/": r"^(container/robot/src|app/sweep)/",

@@ -8,8 +8,8 @@
 //   map FILE.pgm RESOLUTION X Y      as map_server does with black, white and grey
 //   sample scan ...                  what `ready` says meanwhile
 //   ready                            goes on once everybody is there
-// It prints "matched SECONDS" once all it needs is there, "node ...", "tf ...", "pose ...",
-// "particles ...", "diagnostics ...".
+// It prints "said STAMP_NS AT" of odometry, "matched SECONDS" once all it needs is there, "node
+// ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
 #define _GNU_SOURCE
 #include <dds/dds.h>
 #include <math.h>
@@ -85,9 +85,9 @@ static void print_tf(const void* sample) {
   const tf2_msgs_msg_dds__TFMessage_* m = sample;
   for (uint32_t i = 0; i < m->transforms._length; ++i) {
     const geometry_msgs_msg_dds__TransformStamped_* t = &m->transforms._buffer[i];
-    printf("tf %lld %s %s %.17g %.17g %.17g %.17g\n", nanoseconds(&t->header.stamp),
+    printf("tf %lld %s %s %.17g %.17g %.17g %.17g %.6f\n", nanoseconds(&t->header.stamp),
            t->header.frame_id, t->child_frame_id, t->transform.translation.x,
-           t->transform.translation.y, t->transform.rotation.z, t->transform.rotation.w);
+           t->transform.translation.y, t->transform.rotation.z, t->transform.rotation.w, now());
   }
 }
 static void print_pose(const void* sample) {
@@ -271,6 +271,7 @@ int main(int argc, char** argv) {
       m.pose.pose.orientation.z = sin(theta / 2), m.pose.pose.orientation.w = cos(theta / 2);
       m.twist.twist.linear.x = v, m.twist.twist.angular.z = w;
       must(dds_write(odometry, &m), "odom");
+      printf("said %lld %.6f\n", stamp, now());
     } else if (sscanf(line, "initial %lf %lf %lf", &x, &y, &theta) == 3) {
       geometry_msgs_msg_dds__PoseWithCovarianceStamped_ m = {.header = {{0, 0}, "map"}};
       m.pose.pose.position.x = x, m.pose.pose.position.y = y;

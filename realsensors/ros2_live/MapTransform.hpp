@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ortung/base/Pose2.hpp"
+#include "ortung/base/Time.hpp"
+
+namespace ortung::ros2 {
+
+/// The transform map -> odom: told with each odometry at once, whatever the filter is doing, a
+/// while ahead of its stamp, so that nobody who asks for a pose has to guess; and anew when the
+/// filter has corrected it, a microsecond later, since a time is told once. Thread-safe.
+class MapTransform {
+ public:
+  struct Options {
+    std::string map = "map", odom = "odom";  ///< frames
+    double ahead = 1.0;                      ///< how far [s]
+  };
+  explicit MapTransform(Options options) : options_(std::move(options)) {}
+
+  /// Sets what sends the messages (tf2_msgs/TFMessage in CDR).
+  void sendBy(std::function<void(std::string_view)> send);
+  /// Tells the transform for odometry that has arrived; nothing before the first correction.
+  void follow(Timestamp odometry);
+  /// Takes the odometry's pose in the map, and tells it if it has changed.
+  void correct(const Pose2& odomInMap);
+
+  bool isKnown() const;  ///< whether it was ever corrected
+
+ private:
+  void tell(Timestamp stamp);
+
+  const Options options_;
+  mutable std::mutex mutex_;
+  std::function<void(std::string_view)> send_;
+  std::optional<Pose2> odomInMap_;
+  std::optional<Timestamp> followed_;  ///< stamp of the newest odometry
+  std::optional<Timestamp> told_;      ///< stamp of the newest transform
+};
+
+}  // namespace ortung::ros2
