@@ -190,8 +190,9 @@ dds::DataWriter* Participant::Parts::writer(const std::string& name, std::string
                                             Qos qos) {
   dds::DataWriterQos wanted = dds::DATAWRITER_QOS_DEFAULT;
   setQos(wanted, qos, kDepth, userDataOf(type));
-  // Sent by a thread of DDS, so that who publishes does not wait for the network.
-  wanted.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
+  // Not by DDS's own thread: in Fast DDS 2.9 it and the end of a reader may wait for each other for
+  // ever. Sending does not block, since the transport drops what does not fit.
+  wanted.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   dds::DataWriter* const made = publisher->create_datawriter(topic(name, ddsType(type)), wanted);
   if (made == nullptr) throw std::runtime_error("DDS can't write " + name);
   return made;
@@ -239,6 +240,7 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   constexpr std::uint32_t kBuffer = 4U << 20;  // a burst of scans and a map [bytes]
   udp->receiveBufferSize = kBuffer;
   udp->sendBufferSize = kBuffer;
+  udp->non_blocking_send = true;
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports = {udp};
   p.participant =
