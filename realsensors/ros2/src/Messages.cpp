@@ -1,6 +1,7 @@
 #include "ortung/ros2/Messages.hpp"
 
 #include "Cdr.hpp"
+#include "Ros1.hpp"
 
 namespace ortung::ros2 {
 
@@ -11,9 +12,10 @@ std::string toCdr(const M& message) {
   return writer.take();
 }
 
-template <class M>
-std::optional<M> fromCdr(std::string_view bytes, std::string& why) {
-  CdrReader reader(bytes);
+namespace {
+
+template <class M, class Reader>
+std::optional<M> readWith(Reader reader, std::string& why) {
   std::optional<M> message(std::in_place);
   reader(*message);
   why = reader.why();
@@ -21,9 +23,22 @@ std::optional<M> fromCdr(std::string_view bytes, std::string& why) {
   return message;
 }
 
-#define ORTUNG_ROS2_MESSAGE(M)                     \
-  template ORTUNG_API std::string toCdr(const M&); \
-  template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&);
+}  // namespace
+
+template <class M>
+std::optional<M> fromCdr(std::string_view bytes, std::string& why) {
+  return readWith<M>(CdrReader(bytes), why);
+}
+
+template <class M>
+std::optional<M> fromRos1(std::string_view bytes, std::string& why) {
+  return readWith<M>(Ros1Reader(bytes), why);
+}
+
+#define ORTUNG_ROS2_MESSAGE(M)                                                  \
+  template ORTUNG_API std::string toCdr(const M&);                              \
+  template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&); \
+  template ORTUNG_API std::optional<M> fromRos1(std::string_view, std::string&);
 ORTUNG_ROS2_MESSAGE(LaserScan)
 ORTUNG_ROS2_MESSAGE(Odometry)
 ORTUNG_ROS2_MESSAGE(TfMessage)

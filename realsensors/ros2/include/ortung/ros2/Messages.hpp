@@ -199,6 +199,14 @@ ORTUNG_API std::string toCdr(const M& message);
 template <class M>
 ORTUNG_API std::optional<M> fromCdr(std::string_view bytes, std::string& why);
 
+/// Decodes the same message as ROS 1 serializes it, from untrusted bytes: little endian without
+/// alignment. Frames lose the slash at their beginning. Bytes behind the message are ignored.
+/// Numbers may be NaN.
+/// @param why out: what was found, if it is not such a message
+/// @return the message, or nothing
+template <class M>
+ORTUNG_API std::optional<M> fromRos1(std::string_view bytes, std::string& why);
+
 /// Returns the definition of a type and of all types that it contains, in the form "ros2msg"; ""
 /// for an unknown type.
 ORTUNG_API std::string schemaText(std::string_view type);
