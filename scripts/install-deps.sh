@@ -18,8 +18,8 @@ demo=(
   libembree-dev libbox2d-dev libyaml-cpp-dev libpng-dev libboost-dev libboost-iostreams-dev
   # the program: command line, messages, texts in pictures
   libcli11-dev libspdlog-dev libfmt-dev libstb-dev
-  # MCAP files of ROS 2
-  liblz4-dev
+  # bags of ROS 2 and ROS 1: MCAP, SQLite, chunks of bzip2
+  liblz4-dev libsqlite3-dev libbz2-dev
   # digests of what parts of a job were made from
   libxxhash-dev
 )
@@ -40,6 +40,8 @@ test=(
   python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
   # robots of ROS 2: DDS, and another implementation of it with a generator of its own for the tests
   libfastrtps-dev libfastcdr-dev cyclonedds-dev cyclonedds-tools
+  # tests of bags of ROS 1: its own recorder and messages
+  python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
   # training of motion networks
   libdlib-dev libblas-dev
   # tests

@@ -7,7 +7,7 @@ packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 # The Debian package of what a CMake file or a script calls NAME; - for what is there already.
 package_of() {
   case $1 in
-    BLAS) echo libblas-dev ;; fastrtps) echo libfastrtps-dev ;; CycloneDDS) echo cyclonedds-dev ;; idlc) echo cyclonedds-tools ;; Boost) echo libboost-dev ;; CLI11) echo libcli11-dev ;; Eigen3) echo libeigen3-dev ;;
+    BLAS) echo libblas-dev ;; BZip2) echo libbz2-dev ;; SQLite3) echo libsqlite3-dev ;; fastrtps) echo libfastrtps-dev ;; CycloneDDS) echo cyclonedds-dev ;; idlc) echo cyclonedds-tools ;; Boost) echo libboost-dev ;; CLI11) echo libcli11-dev ;; Eigen3) echo libeigen3-dev ;;
     GTest) echo libgtest-dev ;; OrtungOpenCV) echo - ;; opencv2/core.hpp) echo libopencv-core-dev ;; opencv_*) echo "libopencv-${1#opencv_}-dev" ;; PNG) echo libpng-dev ;; Python3) echo python3 ;; Python) echo python3-dev ;; pybind11) echo pybind11-dev ;; benchmark) echo libbenchmark-dev ;;
     box2d) echo libbox2d-dev ;; embree) echo libembree-dev ;; fmt) echo libfmt-dev ;; mrpt-maps) echo libmrpt-maps-dev ;;
     mrpt-hwdrivers) echo libmrpt-hwdrivers-dev ;; mrpt-obs) echo libmrpt-obs-dev ;; nlohmann_json) echo nlohmann-json3-dev ;; rapidcheck) echo librapidcheck-dev ;;
