@@ -72,8 +72,8 @@ TEST_F(ImportHelp, OfAKindHasItsOptionsAndWithoutOneItNamesTheKinds) {
   EXPECT_EQ(one.out.find("laser_yaw_deg"), std::string::npos) << one.out;
   const Outcome all = ortung({"import", "--help"});
   EXPECT_EQ(all.exitCode, 0) << all.err;
-  for (const char* part :
-       {"  mrclam ", "  scanlog ", "  carmen ", "  rawlog ", "  mcap ", "  sim ", "  tcp "})
+  for (const char* part : {"  mrclam ", "  scanlog ", "  carmen ", "  rawlog ", "  mcap ", "  bag ",
+                           "  sim ", "  tcp "})
     EXPECT_NE(all.out.find(part), std::string::npos) << part << all.out;
   const Outcome none = ortung({"import", "nix", "--help"});
   EXPECT_EQ(none.exitCode, 0) << none.err;

@@ -422,7 +422,8 @@ TEST_F(BagOptions, AnUnfinishedFileIsReadAndToldOf) {
 TEST_F(BagOptions, AFolderWithoutFilesIsNoBag) {
   EXPECT_EQ(
       errorOf("mcap:" + folder_.path().string()),
-      folder_.path().string() + ": found no file *.mcap in this folder, expected those of a bag");
+      folder_.path().string() +
+          ": found no file *.mcap, *.db3, *.zstd or *.bag in this folder, expected those of a bag");
 }
 
 // Scanners lean by 11 degrees at most: the cosine of 11.48 degrees is 0.98.

@@ -6,6 +6,7 @@
 
 #include "BagMaker.hpp"
 #include "LogTesting.hpp"
+#include "Ros1Maker.hpp"
 #include "ortung/formats/OdometryData.hpp"
 
 namespace ortung {
@@ -180,11 +181,24 @@ TEST_F(BagSource, WhatAPluginsOwnFormatReadComesBackAsItsWordsAlone) {
   EXPECT_EQ(radar.front().words, words.data);
 }
 
-TEST_F(BagSource, MessagesOfRos1AreRefused) {
+TEST_F(BagSource, MessagesInAnotherEncodingAreRefused) {
   BagMaker maker;
-  maker.add("/scan", scanOf(0, "laser", {1.0F}), "ros1");
-  EXPECT_NE(errorOf(write(maker)).find("/scan: found messages in 'ros1', expected cdr"),
+  maker.add("/scan", scanOf(0, "laser", {1.0F}), "json");
+  EXPECT_NE(errorOf(write(maker)).find("/scan: found messages in 'json', expected cdr"),
             std::string::npos);
+}
+
+// As `mcap convert` makes it of a bag of ROS 1.
+TEST_F(BagSource, MessagesOfRos1InMcapAreReadAsThose) {
+  std::string bytes;
+  McapWriter writer([&](std::string_view piece) { bytes += piece; }, {});
+  const auto schema = writer.addSchema("nav_msgs/Odometry", "ros1msg", "");
+  writer.write(writer.addChannel(schema, "/odom", "ros1", {}), 1,
+               toRos1(odometryAt(2 * kSecond, 1.25, 0.5)));
+  writer.finish();
+  EXPECT_EQ(asText(readAll("mcap:" + folder_.write("run.mcap", bytes).string())),
+            (Texts{"2000000 odometry/odometry/pose 2147484898 2147483648 18000 2147484148 "
+                   "2147483648"}));
 }
 
 TEST_F(BagSource, NumbersThatAreNoneNeverComeIn) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
-#include "ortung/base/InputFile.hpp"
+#include "../src/Compression.hpp"
+#include "BagFolder.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostKept = 1U << 30;  // bytes of readings
 constexpr std::size_t kMostTopics = 1024;
 constexpr std::size_t kMostRemarks = 32;
-constexpr const char* kRobotFile = "robot.toml";
+constexpr std::string_view kRos1Encoding = "ros1";
 
 std::optional<std::vector<std::string>> listOption(const Parameters& options, const char* key) {
   if (!options.has(key)) return std::nullopt;
@@ -31,23 +31,6 @@ std::optional<std::vector<std::string>> listOption(const Parameters& options, co
   for (std::string word; std::getline(words, word, ',');)
     if (!word.empty() && word != "none") list.push_back(word);
   return list;
-}
-
-/// Returns the files of a bag in their order: bag_2.mcap comes before bag_10.mcap.
-std::vector<fs::path> filesOf(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) return {path};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(path, error))
-    if (entry.path().extension() == ".mcap") files.push_back(entry.path());
-  if (files.empty())
-    throw std::runtime_error(path.string() +
-                             ": found no file *.mcap in this folder, expected those of a bag");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    const auto key = [](const fs::path& p) { return std::pair(p.string().size(), p.string()); };
-    return key(a) < key(b);
-  });
-  return files;
 }
 
 bool isWanted(const std::optional<std::vector<std::string>>& list, const std::string& topic) {
@@ -64,6 +47,18 @@ bool isOfWords(const McapChannel& channel) {
   const auto format = channel.metadata.find("format");
   if (featureOf(channel).empty() || format == channel.metadata.end()) return false;
   return format->second.substr(0, format->second.find(' ')) != formats::kCone;
+}
+
+/// Returns the name that ROS 2 has for the type of a channel's messages, which ROS 1 calls
+/// otherwise.
+std::string typeOf(const McapChannel& channel) {
+  const std::string& name = channel.schema.name;
+  const std::size_t slash = name.find('/');
+  if (channel.encoding != kRos1Encoding || slash == name.npos) return name;
+  if (name == "tf/tfMessage") return std::string(TfMessage::kType);
+  return name.find('/', slash + 1) != name.npos
+             ? name
+             : name.substr(0, slash) + "/msg" + name.substr(slash);
 }
 
 constexpr const char* kNoPlace = "have a place that is no number or beyond 1000 km";
@@ -110,7 +105,7 @@ BagChoice BagChoice::read(const Parameters& options) {
 }
 
 Bag::Bag(const fs::path& path, const BagChoice& choice) : choice_(choice) {
-  for (const fs::path& file : filesOf(path)) readFile(file);
+  for (const fs::path& file : bagFiles(path, remarks)) readFile(file);
   file_ = path.string();
   checkChoice();
   choose();
@@ -121,15 +116,11 @@ Bag::Bag(const fs::path& path, const BagChoice& choice) : choice_(choice) {
 
 void Bag::readFile(const fs::path& file) {
   file_ = file.string();
-  std::string why;
-  std::ifstream in = openInput(file, why);
-  if (!in) throw std::runtime_error(file_ + ": " + why);
-  McapReader reader(in, file_);
-  for (McapMessage message; reader.next(message);) take(message, message.channel->schema.name);
-  if (reader.isUnfinished() && remarks.size() < kMostRemarks)
+  const std::unique_ptr<BagFile> reader = openBagFile(file);
+  for (McapMessage message; reader->next(message);) take(message, typeOf(*message.channel));
+  if (reader->isUnfinished() && remarks.size() < kMostRemarks)
     remarks.push_back(file_ + " is unfinished; it was read up to its end");
-  const auto robot = reader.attachments().find(kRobotFile);
-  if (robot != reader.attachments().end()) robotToml = robot->second;
+  if (std::string robot = reader->robotToml(); !robot.empty()) robotToml = std::move(robot);
 }
 
 void Bag::take(const McapMessage& message, const std::string& type) {
@@ -156,14 +147,32 @@ void Bag::take(const McapMessage& message, const std::string& type) {
 }
 
 template <class M>
-std::optional<M> Bag::decode(const McapMessage& message) const {
-  if (message.channel->encoding != "cdr")
-    refuse(message, "found messages in '" + message.channel->encoding.substr(0, 16) +
-                        "', expected cdr, as ROS 2 has them");
+std::optional<M> Bag::decode(const McapMessage& message) {
+  const std::string& encoding = message.channel->encoding;
+  const bool isRos1 = encoding == kRos1Encoding;
+  if (encoding != "cdr" && !isRos1)
+    refuse(message, "found messages in '" + encoding.substr(0, 16) +
+                        "', expected cdr, as ROS 2 has them, or ros1");
   std::string why;
-  auto decoded = fromCdr<M>(message.data, why);
+  std::optional<M> decoded;
+  if (isRos1)
+    decoded = fromRos1<M>(message.data, why);
+  else if (isZstd(message.data))  // CDR begins with a zero
+    decoded = fromCdr<M>(unpacked(message.data, message), why);
+  else
+    decoded = fromCdr<M>(message.data, why);
   if (!decoded) refuse(message, why + ", expected a " + std::string(M::kType));
   return decoded;
+}
+
+/// Unpacks a message, as rosbag2 compresses them one by one.
+std::string Bag::unpacked(std::string_view packed, const McapMessage& message) {
+  std::string bytes;
+  const std::string why = unpackZstd(packed, BagFile::kMostBytes, bytes);
+  if (!why.empty()) refuse(message, "found a compressed message that " + why);
+  if (!unpacked_.add(packed.size(), bytes.size()))
+    refuse(message, "found messages that unpack to more than those of a recording");
+  return bytes;
 }
 
 void Bag::refuse(const McapMessage& message, const std::string& what) const {
@@ -343,7 +352,7 @@ void Bag::takeTransforms(const McapMessage& message) {
 
 void Bag::takePose(const McapMessage& message) {
   constexpr std::size_t kPlanar[3] = {0, 1, 5};  // of six dimensions
-  if (message.channel->schema.name == PoseStamped::kType) {
+  if (typeOf(*message.channel) == PoseStamped::kType) {
     if (!isTruth(message)) return;
     const auto pose = *decode<PoseStamped>(message);
     return addTruth(message, pose.header, pose.pose);

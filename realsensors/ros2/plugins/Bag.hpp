@@ -10,13 +10,14 @@
 #include <string_view>
 #include <vector>
 
+#include "BagFile.hpp"
 #include "FrameTree.hpp"
 #include "ScanShape.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/SensorData.hpp"
-#include "ortung/ros2/McapReader.hpp"
+#include "ortung/ros2/Messages.hpp"
 
 namespace ortung::ros2 {
 
@@ -31,8 +32,8 @@ struct BagChoice {
   static BagChoice read(const Parameters& options);
 };
 
-/// A robot's messages in a bag of ROS 2 that was recorded as MCAP: one file, or the folder of a bag
-/// with its files. Not thread-safe.
+/// A robot's messages in a bag of ROS 2 (MCAP, .db3) or ROS 1 (.bag): one file, or the folder of a
+/// bag with its files. Not thread-safe.
 class Bag {
  public:
   struct Scan {
@@ -94,9 +95,10 @@ class Bag {
 
  private:
   void readFile(const std::filesystem::path& file);
-  void take(const McapMessage& message, const std::string& name);
+  void take(const McapMessage& message, const std::string& type);
   template <class M>
-  std::optional<M> decode(const McapMessage& message) const;
+  std::optional<M> decode(const McapMessage& message);
+  std::string unpacked(std::string_view packed, const McapMessage& message);
   Timestamp timeOf(const Header& header, const McapMessage& message) const;
   /// Returns the time of a message that is kept, and counts those that are not in order.
   Timestamp stampOf(const Header& header, const McapMessage& message);
@@ -138,6 +140,7 @@ class Bag {
   };
   BagChoice choice_;
   std::string file_;
+  UnpackedSize unpacked_;  ///< size of messages that were compressed one by one
   std::vector<Track> odometries_;
   std::vector<std::string> odometryFrames_;  ///< the robot's frame of each odometry
   std::vector<TimedTransform> moving_;

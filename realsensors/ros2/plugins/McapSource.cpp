@@ -41,8 +41,8 @@ std::string cleaned(const std::string& topic) {
   return name.empty() ? "topic" : name.substr(0, kLongest);
 }
 
-/// A bag of ROS 2 that was recorded as MCAP: laser scans, odometry, ranges, poses, and the mounts
-/// of the sensors.
+/// A bag of ROS 2 (MCAP, .db3) or ROS 1 (.bag): laser scans, odometry, ranges, poses, and the
+/// mounts of the sensors.
 class McapSource : public LogSource {
  public:
   explicit McapSource(const Parameters& options)
@@ -265,12 +265,12 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
   writeWorldOf(*map_, file);
 }
 
-/// The text of `ortung import mcap --help`.
+/// The text of `ortung import mcap --help`, and of `bag`.
 class McapHelp : public SourceHelp {
  public:
   explicit McapHelp(const Parameters&)
       : SourceHelp(
-            "MCAP file of ROS 2, or folder of a bag with such files",
+            "bag of ROS 2 (MCAP, .db3, also compressed), its folder, or a .bag of ROS 1",
             {{"scans", "", "all", "topics of sensor_msgs/LaserScan, with commas between them"},
              {"ranges", "", "all", "topics of sensor_msgs/Range"},
              {"images", "", "none", "topics of sensor_msgs/Image (rgb8, bgr8, mono8)"},
@@ -291,5 +291,8 @@ class McapHelp : public SourceHelp {
 }  // namespace
 }  // namespace ortung::ros2
 
+// Both names mean the same: what a file is, its first bytes tell.
 ORTUNG_PLUGINS("mcap_source", ortung::provide<ortung::Source, ortung::ros2::McapSource>("mcap"),
-               ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("mcap"));
+               ortung::provide<ortung::Source, ortung::ros2::McapSource>("bag"),
+               ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("mcap"),
+               ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("bag"));
