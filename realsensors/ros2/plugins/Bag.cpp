@@ -7,6 +7,7 @@
 
 #include "../src/Compression.hpp"
 #include "BagFolder.hpp"
+#include "MapWorld.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -388,16 +389,7 @@ void Bag::takeWords(const McapMessage& message) {
 
 void Bag::takeMap(const McapMessage& message) {
   map = *decode<OccupancyGrid>(message);
-  const Pose2 origin = toPose2(map->origin);
-  constexpr double kLevel = 1e-6;  // [rad]
-  if (!(map->resolution > 0.0F) || map->resolution > 100.0F || !isPlausible(origin) ||
-      std::abs(origin.theta) > kLevel || map->width == 0 || map->height == 0 ||
-      map->data.size() / map->width != map->height || map->data.size() % map->width != 0)
-    refuse(message, "found a map of " + std::to_string(map->width) + " x " +
-                        std::to_string(map->height) + " cells of " +
-                        std::to_string(map->resolution) + " m with " +
-                        std::to_string(map->data.size()) + " values, turned by " +
-                        std::to_string(origin.theta) + " rad, expected a value a cell, not turned");
+  if (const std::string why = whyNoWorld(*map); !why.empty()) refuse(message, why);
 }
 
 /// Throws unless there are messages of one of the types at a topic that an option names.
