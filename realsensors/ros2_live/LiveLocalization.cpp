@@ -76,9 +76,23 @@ LiveLocalization::LiveLocalization(const Options& options)
       odometry_(onlyOf(localization_->container(), formats::kOdometry, options.odometry)->id()),
       readings_(readingsOf(options, localization_->container())),
       transform_({options.map, options.odom, options.transformTolerance}) {
-  if (!options.belief.empty() && std::filesystem::exists(options.belief))
-    localization_->restoreBelief(options.belief);
   localization_->wantSamples(true);
+  if (options.belief.empty() || !std::filesystem::exists(options.belief)) return;
+  try {
+    localization_->restoreBelief(options.belief);
+  } catch (const TableError& error) {  // of another map, as a rule; the robot can be found anew
+    std::cerr << "ortung-ros2: " << error.what() << "; the robot is searched for" << std::endl;
+  }
+}
+
+/// Saves the belief, if it is kept. A full disk does not stop a robot.
+void LiveLocalization::saveBelief() {
+  if (options_.belief.empty() || !transform_.isKnown()) return;
+  try {
+    localization_->saveBelief(options_.belief);
+  } catch (const TableError& error) {
+    std::cerr << "ortung-ros2: " << error.what() << std::endl;
+  }
 }
 
 void LiveLocalization::changeTables(const std::filesystem::path& tables) {
@@ -233,11 +247,10 @@ void LiveLocalization::run(const std::function<bool()>& goOn) {
     if (since.count() < options_.reportSeconds) continue;
     reported = Clock::now();
     report();
-    if (!options_.belief.empty() && transform_.isKnown())
-      localization_->saveBelief(options_.belief);
+    saveBelief();
   }
   report();
-  if (!options_.belief.empty() && transform_.isKnown()) localization_->saveBelief(options_.belief);
+  saveBelief();
 }
 
 }  // namespace ortung::ros2

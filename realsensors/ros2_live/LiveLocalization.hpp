@@ -59,6 +59,7 @@ class LiveLocalization {
   void tellDiagnostics();
   void followOdometry();
   void report();
+  void saveBelief();
 
   Options options_;
   std::unique_ptr<Localization> localization_;

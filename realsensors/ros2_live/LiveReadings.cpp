@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/realsensors/LogFile.hpp"
@@ -44,6 +45,7 @@ void LiveReadings::put(Message message, std::optional<Pose2> inOdometry) {
     leaveOut("the clock was set back");
     waiting_.clear();
     delivered_.reset();
+    lastPose_.reset();
     newestScan_.reset();
     newestOdometry_.reset();
   }
@@ -152,6 +154,21 @@ bool LiveReadings::isReady(Clock::time_point now) const {
   return isCovered || now - first.since >= kPatience;
 }
 
+/// Where the robot is in odometry between the last pose that was given and the next that waits.
+std::optional<Pose2> LiveReadings::interpolated(Timestamp stamp) const {
+  const auto after = std::find_if(waiting_.begin(), waiting_.end(), [](const auto& one) {
+    return one.second.inOdometry.has_value();
+  });
+  if (!lastPose_ || after == waiting_.end() || lastPose_->first >= after->first)
+    return std::nullopt;
+  const auto& [begin, from] = *lastPose_;
+  const Pose2& to = *after->second.inOdometry;
+  const double share =
+      static_cast<double>(stamp - begin) / static_cast<double>(after->first - begin);
+  return Pose2{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+               wrapAngle(from.theta + share * wrapAngle(to.theta - from.theta))};
+}
+
 std::optional<LiveReadings::Moment> LiveReadings::next(std::chrono::milliseconds longest) {
   std::unique_lock lock(mutex_);
   const Clock::time_point end = Clock::now() + longest;
@@ -160,7 +177,10 @@ std::optional<LiveReadings::Moment> LiveReadings::next(std::chrono::milliseconds
     if (isReady(now)) {
       auto first = waiting_.extract(waiting_.begin());
       delivered_ = first.key();
-      return Moment{std::move(first.mapped().readings), first.mapped().inOdometry};
+      Moment moment{std::move(first.mapped().readings), first.mapped().inOdometry};
+      if (moment.inOdometry) lastPose_.emplace(first.key(), *moment.inOdometry);
+      if (!moment.inOdometry) moment.inOdometry = interpolated(first.key());
+      return moment;
     }
     if (now >= end) return Moment{};
     Clock::time_point until = end;

@@ -40,7 +40,8 @@ class LiveReadings {
     bool followsFrames = false;  ///< whether odometry is the transform odom -> base, not a message
     std::string base = "base_footprint", odom = "odom";  ///< frames
   };
-  /// A moment, and the robot's pose in the frame of odometry then, if it is known.
+  /// A moment, and the robot's pose in the frame of odometry then, if it is known: between two
+  /// odometries it is interpolated.
   struct Moment {
     std::vector<Message> readings;  ///< of one stamp; none: time has passed without any
     std::optional<Pose2> inOdometry;
@@ -78,6 +79,7 @@ class LiveReadings {
   void leaveOut(const std::string& what);
   void addOdometry(Timestamp stamp, const Pose2& pose, std::vector<std::uint32_t> words);
   bool isReady(Clock::time_point now) const;
+  std::optional<Pose2> interpolated(Timestamp stamp) const;
 
   const Options options_;
   mutable std::mutex mutex_;
@@ -85,6 +87,8 @@ class LiveReadings {
   bool isStopped_ = false;
   std::map<Timestamp, Waiting> waiting_;
   std::optional<Timestamp> delivered_;  ///< stamp of the moment that was given last
+  std::optional<std::pair<Timestamp, Pose2>>
+      lastPose_;  ///< in odometry, of a moment that was given
   std::optional<Timestamp> newestScan_, newestOdometry_;
   std::size_t late_ = 0;  ///< messages in a row
   std::vector<std::optional<ScanShape>> shapes_;

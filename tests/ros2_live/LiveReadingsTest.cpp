@@ -92,6 +92,18 @@ TEST_F(LiveReadingsTest, OdometryThatCameFirstIsPassedInTheOrderOfTime) {
   EXPECT_EQ(next(), "");
 }
 
+// So a scan corrects the transform at once, not with the next odometry that the filter gets.
+TEST_F(LiveReadingsTest, BetweenTwoOdometriesThePoseIsInterpolated) {
+  odometry(0.0, 1.0);
+  scan(0.05);
+  odometry(0.2, 3.0);
+  ASSERT_EQ(next(), "0 ms: odometry");
+  const auto moment = readings_.next(milliseconds(0));
+  ASSERT_TRUE(moment && moment->inOdometry);
+  EXPECT_EQ(moment->readings.front().id, kScan);
+  EXPECT_NEAR(moment->inOdometry->x, 1.5, 1e-12);
+}
+
 TEST_F(LiveReadingsTest, NothingWaitsForEver) {
   odometry(0.0);
   EXPECT_EQ(next(), "");
