@@ -78,7 +78,16 @@ class Inbox {
   std::set<std::string> found_;
 };
 
-TEST(Participant, SendsTheBytesThatItIsGiven) {
+class ParticipantTest : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "Fast DDS 2.9 frees memory as another type than it was, and knows no sanitizer";
+#endif
+  }
+};
+
+TEST_F(ParticipantTest, SendsTheBytesThatItIsGiven) {
   Participant::Options options;
   options.isLocal = true;
   options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;  // one of the test's own
@@ -111,7 +120,7 @@ TEST(Participant, SendsTheBytesThatItIsGiven) {
 
 // Nobody who publishes waits for himself: what is published under a lock may be heard by a taker
 // that wants the same one.
-TEST(Participant, PublishesWhileItsOwnTakersWait) {
+TEST_F(ParticipantTest, PublishesWhileItsOwnTakersWait) {
   Participant::Options options;
   options.isLocal = true;
   options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;
@@ -141,7 +150,7 @@ TEST(Participant, PublishesWhileItsOwnTakersWait) {
   EXPECT_TRUE(isThere);
 }
 
-TEST(Participant, CountsWhatATakerThrowsAt) {
+TEST_F(ParticipantTest, CountsWhatATakerThrowsAt) {
   Participant::Options options;
   options.isLocal = true;
   options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;
