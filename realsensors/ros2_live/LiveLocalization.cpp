@@ -81,7 +81,7 @@ LiveLocalization::LiveLocalization(const Options& options)
   try {
     localization_->restoreBelief(options.belief);
   } catch (const TableError& error) {  // of another map, as a rule; the robot can be found anew
-    std::cerr << "ortung-ros2: " << error.what() << "; the robot is searched for" << std::endl;
+    std::cerr << "ortung-ros2: " << error.what() << "; the robot is searched for" << '\n';
   }
 }
 
@@ -91,7 +91,7 @@ void LiveLocalization::saveBelief() {
   try {
     localization_->saveBelief(options_.belief);
   } catch (const TableError& error) {
-    std::cerr << "ortung-ros2: " << error.what() << std::endl;
+    std::cerr << "ortung-ros2: " << error.what() << '\n';
   }
 }
 
@@ -109,7 +109,7 @@ void LiveLocalization::changeTables(const std::filesystem::path& tables) {
       changed->setPose(here->pose, here->covariance);
     } catch (const std::invalid_argument&) {
       std::cerr << "ortung-ros2: the new map has no room where the robot is; it is searched for"
-                << std::endl;
+                << '\n';
     }
   }
   options_.localization = config;
@@ -164,7 +164,7 @@ void LiveLocalization::startAtInitialPose() {
   try {
     localization_->setPose(wanted->pose, wanted->covariance);
   } catch (const std::exception& error) {
-    std::cerr << "ortung-ros2: initialpose: " << error.what() << std::endl;
+    std::cerr << "ortung-ros2: initialpose: " << error.what() << '\n';
   }
 }
 
@@ -209,7 +209,7 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   try {
     localization_->take(moment.readings);
   } catch (const std::invalid_argument& error) {
-    std::cerr << "ortung-ros2: " << error.what() << std::endl;
+    std::cerr << "ortung-ros2: " << error.what() << '\n';
     return;
   }
   const auto estimate = localization_->update();
@@ -233,7 +233,7 @@ void LiveLocalization::report() {
   for (const auto& [what, count] : wrong) {
     std::uint64_t& told = reported_[what];
     if (told != count)
-      std::cerr << "ortung-ros2: left out " << count - told << " times: " << what << std::endl;
+      std::cerr << "ortung-ros2: left out " << count - told << " times: " << what << '\n';
     told = count;
   }
 }

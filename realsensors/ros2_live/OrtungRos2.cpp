@@ -131,7 +131,7 @@ class Learning {
         if (scan.find('=') == scan.npos) scan += "=" + LiveSetup::featureOf(scan);
     }
     missing_ = "tables";
-    const auto tables = arguments_.folder / ("map" + std::to_string(++count_ % 2) + ".ortung");
+    auto tables = arguments_.folder / ("map" + std::to_string(++count_ % 2) + ".ortung");
     if (!learnTables(world, robot, tables, goOn)) return std::nullopt;
     return tables;
   }
@@ -139,11 +139,12 @@ class Learning {
  private:
   bool tellWhatIsMissing() {
     for (const std::string& complaint : setup_->complaints())
-      std::cerr << "ortung-ros2: " << complaint << std::endl;
+      std::cerr << "ortung-ros2: " << complaint << '\n';
     const auto now = std::chrono::steady_clock::now();
     constexpr std::chrono::seconds kBetween{5};
     if (now - told_ >= kBetween) {
-      if (missing_ != "tables") std::cout << "ortung-ros2: waiting for " << missing_ << std::endl;
+      if (missing_ != "tables")
+        std::cout << "ortung-ros2: waiting for " << missing_ << '\n' << std::flush;
       told_ = now;
     }
     return !isStopped;
@@ -161,7 +162,7 @@ void run(Arguments& arguments) {
   std::optional<LiveSetup> setup;
   std::optional<LiveLocalization> localization;
   Participant node(arguments.node);
-  std::cout << "ortung-ros2: listening in domain " << arguments.node.domain << std::endl;
+  std::cout << "ortung-ros2: listening in domain " << arguments.node.domain << '\n' << std::flush;
   LocalizationConfig& config = arguments.localization.localization;
   std::optional<Learning> learning;
   if (config.tables.empty()) {
@@ -172,7 +173,7 @@ void run(Arguments& arguments) {
   }
   localization.emplace(arguments.localization);
   localization->listen(node);
-  std::cout << "ortung-ros2: localizing" << std::endl;
+  std::cout << "ortung-ros2: localizing" << '\n' << std::flush;
   std::future<std::optional<std::filesystem::path>>
       learned;  // in the background: the robot drives on
   const auto isLearned = [&] {
@@ -185,22 +186,19 @@ void run(Arguments& arguments) {
     });
     if (isStopped) break;
     if (!isLearned()) {
-      std::cout << "ortung-ros2: another map" << std::endl;
+      std::cout << "ortung-ros2: another map" << '\n' << std::flush;
       learned = std::async(std::launch::async, [&] { return learning->next(); });
       continue;
     }
     try {
       if (const auto tables = learned.get()) localization->changeTables(*tables);
     } catch (const std::exception& error) {
-      std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what()
-                << std::endl;
+      std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what() << '\n';
     }
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int start(int argc, char** argv) {
   CLI::App app("Localizes a robot of ROS 2, in the place of Nav2's amcl", "ortung-ros2");
   app.footer("ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE are as in ROS.");
   Arguments arguments;
@@ -221,8 +219,18 @@ int main(int argc, char** argv) {
     std::signal(SIGTERM, onSignal);
     run(arguments);
   } catch (const std::exception& error) {
-    std::cerr << "ortung-ros2: " << error.what() << std::endl;
+    std::cerr << "ortung-ros2: " << error.what() << '\n';
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (...) {  // what even an error could not be told of
+    return 1;
+  }
 }
