@@ -5,6 +5,8 @@ The same recorded drives for all rows of a table; models are learned from other 
 import os
 import re
 
+import sweeps
+
 DRIVES = 10  # simulated, of 60 s
 TRAINING = (101, 102)  # seeds of drives of 120 s from which models are learned
 SAMPLES = (500, 2000, 10000)
@@ -45,7 +47,7 @@ def table(tools, title, base, robots, tables, source, seeds):
             out.write(re.sub(r"(?ms)^\[mcl\]\n.*?(?=^\[|\Z)", "", text))
     command = ["eval", "--source", source, "--robot", "{robot.file}", "--tables", tables, "--set", "mcl.particles={samples}", "--set",
                "mcl.min_particles={samples}", "--seed", "{seed}"]
-    found = tools.sweeps.groups(os.path.basename(base), command, {"robot": files, "samples": SAMPLES, "seed": "1..%d" % seeds})
+    found = tools.sweeps.groups(os.path.basename(base), command, {"robot": files, "samples": SAMPLES, "seed": sweeps.seeds(seeds)})
     rows = [row(tools, *robot.split(" | "), samples, runs) for (robot, samples), runs in found.items()]
     print("\n## %s\n\n%s\n%s" % (title, HEAD, "\n".join(rows)), flush=True)
 

@@ -23,14 +23,6 @@ constexpr std::chrono::milliseconds kLook{20};  ///< between looks at odometry t
 
 std::int64_t nanoseconds(Timestamp stamp) { return stamp * 1000; }
 
-/// Puts the covariance of (x, y, heading) into that of a pose in space.
-Covariance inSpace(const PoseCovariance& plane) {
-  constexpr std::size_t kPlanar[3] = {0, 1, 5};  // of six dimensions
-  Covariance space{};
-  for (std::size_t i = 0; i < 9; ++i) space[kPlanar[i / 3] * 6 + kPlanar[i % 3]] = plane[i];
-  return space;
-}
-
 const SensorData* onlyOf(const SensorContainer& container, std::string_view format,
                          const std::string& what) {
   const SensorData* found = nullptr;
@@ -146,10 +138,7 @@ void LiveLocalization::takeInitialPose(std::string_view cdr) {
   std::string why;
   const auto told = fromCdr<PoseWithCovarianceStamped>(cdr, why);
   if (!told || (!told->header.frame.empty() && told->header.frame != options_.map)) return;
-  InitialPose wanted{toPose2(told->pose), {}};
-  constexpr std::size_t kPlanar[3] = {0, 1, 5};
-  for (std::size_t i = 0; i < 9; ++i)
-    wanted.covariance[i] = told->covariance[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
+  const InitialPose wanted{toPose2(told->pose), toPlane(told->covariance)};
   const std::lock_guard lock(mutex_);
   initialPose_ = wanted;
 }
@@ -171,7 +160,7 @@ void LiveLocalization::startAtInitialPose() {
 void LiveLocalization::tellPose(const PoseEstimate& estimate) {
   const Header header{nanoseconds(estimate.stamp), options_.map};
   pose_(toCdr(
-      PoseWithCovarianceStamped{header, fromPose2(estimate.pose), inSpace(estimate.covariance)}));
+      PoseWithCovarianceStamped{header, fromPose2(estimate.pose), fromPlane(estimate.covariance)}));
   const SensorContainer& container = localization_->container();
   if (const SensorData* data = container.findExactly({"mcl", "LOCALIZATION", "samples"})) {
     ParticleCloud cloud{header, {}};

@@ -70,7 +70,7 @@ void LiveReadings::takeScan(std::size_t scanner, std::string_view cdr) {
     if (!shape) {
       ScanShape first(*scan);
       const auto mount = frames_.find(first.frame(), options_.base);
-      const bool isUpsideDown = mount && mount->linear()(2, 2) < 0.0;
+      const bool isUpsideDown = mount && onPlane(*mount).isUpsideDown();
       const std::size_t beams = first.fit(*scan).size();
       if (beams != wanted.beams)
         return leaveOut(wanted.topic + ": " + std::to_string(beams) + " beams, but " +

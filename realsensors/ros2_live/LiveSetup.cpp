@@ -14,15 +14,9 @@
 namespace ortung::ros2 {
 namespace {
 
-constexpr std::size_t kMostFrames = 4096;
 constexpr std::size_t kMostComplaints = 32;
 constexpr std::chrono::milliseconds kLook{100};  ///< between questions whether to go on
 constexpr std::chrono::seconds kPatience{2};     ///< for frames of scanners
-constexpr double kUsefulRange = 30.0;            ///< of scanners that do not say theirs [m]
-constexpr double kUpright = 0.98;                ///< cosine of some 11 degrees
-
-/// Rounds a float of a message to the decimal from which it was made.
-double plain(double number) { return std::round(number * 1e6) / 1e6; }
 
 /// A topic as part of a feature's name.
 std::string cleaned(const std::string& topic) {
@@ -92,8 +86,7 @@ void LiveSetup::takeFrames(std::string_view cdr) {
   const auto all = fromCdr<TfMessage>(cdr, why);
   const std::lock_guard lock(mutex_);
   if (!all) return complain("/tf_static: " + why);
-  for (const TransformStamped& one : all->transforms)
-    if (frames_.size() < kMostFrames || frames_.hasFrame(one.childFrame)) frames_.add(one, true);
+  for (const TransformStamped& one : all->transforms) frames_.add(one, true);
   arrived_.notify_all();
 }
 
@@ -150,20 +143,12 @@ void LiveSetup::writeRobot(const std::filesystem::path& file) const {
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     const ScanShape shape(*scans_[i]);
     const auto found = frames_.find(shape.frame(), options_.base);
-    Pose2 mount;
-    bool isUpsideDown = false;
-    if (found) {
-      const Eigen::Matrix3d turn = found->linear();
-      if (std::abs(turn(2, 2)) < kUpright)
-        throw std::runtime_error(options_.scans[i] +
-                                 ": the scanner is tilted, expected a level one");
-      isUpsideDown = turn(2, 2) < 0.0;
-      mount = {plain(found->translation().x()), plain(found->translation().y()),
-               std::atan2(turn(1, 0), turn(0, 0))};
-    }
-    Scanner scanner = shape.scanner(isUpsideDown);
-    scanner.mount = mount;
-    scanner.maxRange = shape.maxRange() > 0.0 ? plain(shape.maxRange()) : kUsefulRange;
+    const PlanarMount mount = found ? onPlane(*found) : PlanarMount();
+    if (!mount.isLevel())
+      throw std::runtime_error(options_.scans[i] + ": the scanner is tilted, expected a level one");
+    Scanner scanner = shape.scanner(mount.isUpsideDown());
+    scanner.mount = mount.pose;
+    scanner.maxRange = shape.usefulRange();
     const double period = static_cast<double>(scans_[i]->scanTime);
     text += scannerToml(scanner, period >= 0.001 && period <= 10.0 ? period : 0.1,
                         parseSensorId(featureOf(options_.scans[i])));

@@ -11,9 +11,9 @@
 
 namespace ortung::ros2 {
 
-/// The transform map -> odom: told with each odometry at once, whatever the filter is doing, a
-/// while ahead of its stamp, so that nobody who asks for a pose has to guess; and anew when the
-/// filter has corrected it, a microsecond later, since a time is told once. Thread-safe.
+/// The transform map -> odom. It is published with each odometry message, without waiting for the
+/// filter, with a stamp a while ahead, so that no lookup extrapolates; and again when the filter
+/// has corrected it, a microsecond later, since each stamp is published once. Thread-safe.
 class MapTransform {
  public:
   struct Options {

@@ -226,8 +226,8 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   Parts& p = *parts_;
   p.options = options;
   dds::Log::SetVerbosity(dds::Log::Kind::Error);
-  // Within a process DDS would call the reader while it holds the writer, and so whoever publishes
-  // on what arrives at both waits for himself.
+  // Intraprocess delivery calls the reader's listener while the writer's lock is held, which
+  // deadlocks a caller that publishes under a lock that the listener takes, too.
   eprosima::fastrtps::LibrarySettingsAttributes settings;
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);

@@ -352,7 +352,6 @@ void Bag::takeTransforms(const McapMessage& message) {
 }
 
 void Bag::takePose(const McapMessage& message) {
-  constexpr std::size_t kPlanar[3] = {0, 1, 5};  // of six dimensions
   if (typeOf(*message.channel) == PoseStamped::kType) {
     if (!isTruth(message)) return;
     const auto pose = *decode<PoseStamped>(message);
@@ -362,13 +361,11 @@ void Bag::takePose(const McapMessage& message) {
   if (!isTruth(message) && !isEstimate) return;
   const auto pose = *decode<PoseWithCovarianceStamped>(message);
   if (!isEstimate) return addTruth(message, pose.header, pose.pose);
-  PoseFixData::Fix fix{toPose2(pose.pose), {}};
+  const PoseFixData::Fix fix{toPose2(pose.pose), toPlane(pose.covariance)};
   bool isNumber = isPlausible(fix.pose);
-  for (std::size_t i = 0; i < 9; ++i) {
-    fix.covariance[i] = pose.covariance[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
+  for (std::size_t i = 0; i < fix.covariance.size(); ++i)
     isNumber =
         isNumber && std::isfinite(fix.covariance[i]) && (i % 4 != 0 || fix.covariance[i] >= 0);
-  }
   if (!isNumber) return leaveOut(message, kNoPlace);
   addOwn(message, stampOf(pose.header, message), PoseFixData::encode({&fix, 1}));
 }

@@ -10,6 +10,19 @@ constexpr double kFarthest = 1e6;  // [m]
 
 }  // namespace
 
+double plain(double number) { return std::round(number * 1e6) / 1e6; }
+
+bool PlanarMount::isLevel() const {
+  constexpr double kUpright = 0.98;  // cosine of some 11 degrees
+  return std::abs(up) >= kUpright;
+}
+
+PlanarMount onPlane(const Eigen::Isometry3d& sensor) {
+  const Eigen::Matrix3d turn = sensor.linear();
+  const Eigen::Vector3d place = sensor.translation();
+  return {{plain(place.x()), plain(place.y()), std::atan2(turn(1, 0), turn(0, 0))}, turn(2, 2)};
+}
+
 bool FrameTree::add(const TransformStamped& transform, bool isStatic) {
   const auto& [position, q] = transform.transform;
   const Eigen::Vector3d place(position.x, position.y, position.z);

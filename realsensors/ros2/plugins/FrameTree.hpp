@@ -6,9 +6,22 @@
 #include <set>
 #include <string>
 
+#include "ortung/base/Pose2.hpp"
 #include "ortung/ros2/Messages.hpp"
 
 namespace ortung::ros2 {
+
+/// Rounds a float of a message to the decimal from which it was made.
+double plain(double number);
+
+/// How a sensor sits on a robot in the plane.
+struct PlanarMount {
+  Pose2 pose;       ///< in the robot's frame, x and y rounded by plain()
+  double up = 1.0;  ///< cosine of the angle between its z axis and the vertical
+  bool isUpsideDown() const { return up < 0.0; }
+  bool isLevel() const;  ///< within some 11 degrees, either way up
+};
+PlanarMount onPlane(const Eigen::Isometry3d& sensor);
 
 /// Poses of frames in others, from the messages at /tf and /tf_static. Not thread-safe.
 class FrameTree {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "FrameTree.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/realsensors/LogFile.hpp"
 #include "ortung/realsensors/LogSource.hpp"
@@ -10,13 +11,6 @@
 #include "ortung/ros2/RobotTopics.hpp"
 
 namespace ortung::ros2 {
-namespace {
-
-/// Rounds a float of a message to the decimal from which it was made.
-double plain(double number) { return std::round(number * 1e6) / 1e6; }
-
-}  // namespace
-
 std::string whyNoWorld(const OccupancyGrid& map) {
   const Pose2 origin = toPose2(map.origin);
   constexpr double kLevel = 1e-6;  // [rad]

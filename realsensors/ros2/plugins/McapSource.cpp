@@ -23,11 +23,6 @@
 namespace ortung::ros2 {
 namespace {
 
-constexpr double kUsefulRange = 30.0;  // [m], of scanners that do not say theirs
-
-/// Rounds a float of a message to the decimal from which it was made.
-double plain(double number) { return std::round(number * 1e6) / 1e6; }
-
 std::string cleaned(const std::string& topic) {
   std::string name;
   for (const char c : topic) {
@@ -156,11 +151,10 @@ std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& fr
                        " is not known: it was put at the origin; the option mounts sets it");
     return {Pose2(), false};
   }
-  const Eigen::Matrix3d turn = found->linear();
-  constexpr double kUpright = 0.98;  // cosine of some 11 degrees
-  if (isScanner && std::abs(turn(2, 2)) < kUpright)
+  const PlanarMount mount = onPlane(*found);
+  if (isScanner && !mount.isLevel())
     throw std::runtime_error(path_ + ": the scanner of " + topic + " is tilted by " +
-                             std::to_string(static_cast<int>(degrees(std::acos(turn(2, 2))))) +
+                             std::to_string(static_cast<int>(degrees(std::acos(mount.up)))) +
                              " degrees, expected a level one; the option scans leaves it "
                              "out");
   const Eigen::Vector3d place = found->translation();
@@ -168,8 +162,7 @@ std::pair<Pose2, bool> McapSource::mountOf(const Bag& bag, const std::string& fr
     remarks_.push_back("the frame " + inQuotes(frame) + " of " + topic + " is " +
                        tomlNumber(std::round(std::hypot(place.x(), place.y()))) + " m from " +
                        inQuotes(bag.base) + "; the option mounts sets where it is");
-  return {{plain(place.x()), plain(place.y()), std::atan2(turn(1, 0), turn(0, 0))},
-          isScanner && turn(2, 2) < 0.0};
+  return {mount.pose, isScanner && mount.isUpsideDown()};
 }
 
 void McapSource::addOdometry(const Bag& bag) {
@@ -202,8 +195,7 @@ void McapSource::addScans(const Bag& bag, const Bag::Scans& scans) {
     remarks_.push_back("the scans of " + scans.topic + " say a greatest range of " +
                        scans.shape->toldRange() +
                        " m: it was taken as 30 m; the option max_range_m sets it");
-  const double told = scans.shape->maxRange() > 0.0 ? plain(scans.shape->maxRange()) : kUsefulRange;
-  scanner.maxRange = maxRange_.value_or(told);
+  scanner.maxRange = maxRange_.value_or(scans.shape->usefulRange());
   const bool isReversed = scans.shape->isClockwise() != isUpsideDown;
   std::vector<Timestamp> stamps;
   std::vector<std::uint32_t> words;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "FrameTree.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace ortung::ros2 {
@@ -89,6 +90,11 @@ Scanner ScanShape::scanner(bool isUpsideDown) const {
   const double lowest = isUpsideDown ? -std::max(first_, last) : std::min(first_, last);
   scanner.firstAngle = std::abs(lowest) <= kTurn ? lowest : wrapAngle(lowest);
   return scanner;
+}
+
+double ScanShape::usefulRange() const {
+  constexpr double kUseful = 30.0;  // [m]
+  return maxRange_ > 0.0 ? plain(maxRange_) : kUseful;
 }
 
 }  // namespace ortung::ros2

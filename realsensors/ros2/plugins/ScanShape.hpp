@@ -28,6 +28,8 @@ class ScanShape {
   bool isClockwise() const { return step_ < 0; }
   const std::string& frame() const { return frame_; }
   double maxRange() const { return maxRange_; }  ///< greatest range [m]; 0: unknown
+  /// Returns that as a decimal number, 30 m if it is unknown.
+  double usefulRange() const;
   /// Returns the greatest range as the first scan has it, for people.
   const std::string& toldRange() const { return toldRange_; }
 

@@ -41,6 +41,20 @@ Pose fromPose2(const Pose2& pose) {
   return {{pose.x, pose.y, 0.0}, {0.0, 0.0, std::sin(pose.theta / 2), std::cos(pose.theta / 2)}};
 }
 
+Covariance fromPlane(const PoseCovariance& plane) {
+  Covariance space{};
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    space[kPlanar[i / 3] * 6 + kPlanar[i % 3]] = plane[i];
+  return space;
+}
+
+PoseCovariance toPlane(const Covariance& space) {
+  PoseCovariance plane{};
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    plane[i] = space[kPlanar[i / 3] * 6 + kPlanar[i % 3]];
+  return plane;
+}
+
 Pose2 toPose2(const Pose& pose) {
   const Quaternion& q = pose.orientation;
   const double sine = 2.0 * (q.w * q.z + q.x * q.y);
@@ -133,11 +147,8 @@ std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Hea
   data.setData(reading.stamp, reading.words);
   if (data.reading().empty()) return std::nullopt;
   const PoseFixData::Fix& fix = data.reading().front();
-  PoseWithCovarianceStamped out{std::move(header), fromPose2(fix.pose), {}};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      out.covariance[kPlanar[i] * 6 + kPlanar[j]] = fix.covariance[i * 3 + j];
-  return out;
+  return PoseWithCovarianceStamped{std::move(header), fromPose2(fix.pose),
+                                   fromPlane(fix.covariance)};
 }
 
 PoseArray samplesMessage(const Message& reading, Header header) {

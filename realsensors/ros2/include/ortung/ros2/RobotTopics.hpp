@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/ros2/Messages.hpp"
@@ -31,6 +32,10 @@ ORTUNG_API Pose fromPose2(const Pose2& pose);
 /// Projects a pose in space onto the plane.
 /// @returns a pose that is not finite if @p pose is not finite, or its quaternion is 0
 ORTUNG_API Pose2 toPose2(const Pose& pose);
+/// Converts a covariance of (x, y, heading) to one of a pose in space; all else is zero.
+ORTUNG_API Covariance fromPlane(const PoseCovariance& plane);
+/// Takes that of (x, y, heading) from the covariance of a pose in space. Its numbers may be any.
+ORTUNG_API PoseCovariance toPlane(const Covariance& space);
 
 /// A robot's readings as messages of ROS 2: /odom, /scan, /range/..., /image/..., /ground_truth,
 /// the estimate of MCL at /pose and its samples at /particle_cloud, and the tree of frames
