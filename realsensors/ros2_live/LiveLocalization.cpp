@@ -62,14 +62,18 @@ LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
   return wanted;
 }
 
-LiveLocalization::LiveLocalization(const Options& options)
+LiveLocalization::LiveLocalization(const Options& options, LiveRequests& requests)
     : options_(options),
       localization_(std::make_unique<Localization>(options.localization)),
       odometry_(onlyOf(localization_->container(), formats::kOdometry, options.odometry)->id()),
       readings_(readingsOf(options, localization_->container())),
-      transform_({options.map, options.odom, options.transformTolerance}) {
+      transform_({options.map, options.odom, options.transformTolerance}),
+      requests_(requests),
+      tellsTransform_(options.tellsTransform) {
   localization_->wantSamples(true);
-  if (options.belief.empty() || !std::filesystem::exists(options.belief)) return;
+  setActive(true);
+  if (options.belief.empty() || options.startsAnew || !std::filesystem::exists(options.belief))
+    return;
   try {
     localization_->restoreBelief(options.belief);
   } catch (const TableError& error) {  // of another map, as a rule; the robot can be found anew
@@ -108,11 +112,23 @@ void LiveLocalization::changeTables(const std::filesystem::path& tables) {
   localization_ = std::move(changed);
 }
 
+void LiveLocalization::setActive(bool isActive) {
+  isActive_ = isActive;
+  transform_.setTold(isActive && tellsTransform_);
+}
+
+void LiveLocalization::change(double transformTolerance, bool tellsTransform, double saveSeconds) {
+  tellsTransform_ = tellsTransform;
+  options_.saveSeconds = saveSeconds;
+  transform_.setAhead(transformTolerance);
+  setActive(isActive_);
+}
+
 void LiveLocalization::listen(Participant& node) {
   node_ = &node;
   transform_.sendBy(node.publish("/tf", TfMessage::kType, Qos::kDefault));
-  pose_ = node.publish("/amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
-  particles_ = node.publish("/particle_cloud", ParticleCloud::kType, Qos::kSensor);
+  pose_ = node.publish("amcl_pose", PoseWithCovarianceStamped::kType, Qos::kLatched);
+  particles_ = node.publish("particle_cloud", ParticleCloud::kType, Qos::kSensor);
   diagnostics_ = node.publish("/diagnostics", DiagnosticArray::kType, Qos::kDefault);
   node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
                  [this](std::string_view cdr) { readings_.takeTransforms(cdr, true); });
@@ -130,34 +146,28 @@ void LiveLocalization::listen(Participant& node) {
     node.subscribe(topic, LaserScan::kType, Qos::kSensor,
                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
   }
-  node.subscribe("/initialpose", PoseWithCovarianceStamped::kType, Qos::kDefault,
-                 [this](std::string_view cdr) { takeInitialPose(cdr); });
 }
 
-void LiveLocalization::takeInitialPose(std::string_view cdr) {
-  std::string why;
-  const auto told = fromCdr<PoseWithCovarianceStamped>(cdr, why);
-  if (!told || (!told->header.frame.empty() && told->header.frame != options_.map)) return;
-  const InitialPose wanted{toPose2(told->pose), toPlane(told->covariance)};
-  const std::lock_guard lock(mutex_);
-  initialPose_ = wanted;
-}
-
-void LiveLocalization::startAtInitialPose() {
-  std::optional<InitialPose> wanted;
-  {
-    const std::lock_guard lock(mutex_);
-    std::swap(wanted, initialPose_);
-  }
-  if (!wanted) return;
+void LiveLocalization::startAt(const LiveRequests::InitialPose& wanted) {
   try {
-    localization_->setPose(wanted->pose, wanted->covariance);
+    localization_->setPose(wanted.pose, wanted.covariance);
   } catch (const std::exception& error) {
-    std::cerr << "ortung-ros2: initialpose: " << error.what() << '\n';
+    std::cerr << "ortung-ros2: initial pose: " << error.what() << '\n';
   }
+}
+
+/// Does what others have asked for.
+void LiveLocalization::obey() {
+  const LiveRequests::Asked asked = requests_.take();
+  if (asked.isConfigured && options_.startsAnew) localization_->start(options_.localization.start);
+  if (asked.relocalizes) localization_->relocalize();
+  if (asked.pose) startAt(*asked.pose);
+  if (!asked.tellsNow || !lastOdometry_) return;
+  if (const auto here = localization_->estimate(lastOdometry_->stamp)) tellPose(*here);
 }
 
 void LiveLocalization::tellPose(const PoseEstimate& estimate) {
+  if (!isActive_) return;
   const Header header{nanoseconds(estimate.stamp), options_.map};
   pose_(toCdr(
       PoseWithCovarianceStamped{header, fromPose2(estimate.pose), fromPlane(estimate.covariance)}));
@@ -180,7 +190,8 @@ void LiveLocalization::tellDiagnostics() {
   const SensorContainer& container = localization_->container();
   const SensorData* track = container.findExactly({"mcl", "LOCALIZATION", "status"});
   const SensorData* bound = container.findExactly({"mcl", "LOCALIZATION", "protection"});
-  if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_) return;
+  if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_ || !isActive_)
+    return;
   toldStatus_ = track->sequence();
   diagnostics_(toCdr(diagnosticsMessage(static_cast<const TrackData*>(track)->reading(),
                                         static_cast<const ProtectionData*>(bound)->reading(),
@@ -193,7 +204,6 @@ void LiveLocalization::followOdometry() {
 }
 
 void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
-  startAtInitialPose();
   if (moment.readings.empty()) return;
   try {
     localization_->take(moment.readings);
@@ -229,14 +239,21 @@ void LiveLocalization::report() {
 
 void LiveLocalization::run(const std::function<bool()>& goOn) {
   using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
   Clock::time_point reported = Clock::now();
+  Clock::time_point saved = reported;
   while (goOn()) {
+    obey();
     if (const auto moment = readings_.next(kLook)) onMoment(*moment);
-    const std::chrono::duration<double> since = Clock::now() - reported;
-    if (since.count() < options_.reportSeconds) continue;
-    reported = Clock::now();
-    report();
-    saveBelief();
+    const Clock::time_point now = Clock::now();
+    if (Seconds(now - reported).count() >= options_.reportSeconds) {
+      reported = now;
+      report();
+    }
+    if (Seconds(now - saved).count() >= options_.saveSeconds) {
+      saved = now;
+      saveBelief();
+    }
   }
   report();
   saveBelief();

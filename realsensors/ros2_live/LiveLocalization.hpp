@@ -1,15 +1,16 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "LiveReadings.hpp"
+#include "LiveRequests.hpp"
 #include "MapTransform.hpp"
 #include "Participant.hpp"
 #include "ortung/run/Localization.hpp"
@@ -29,12 +30,16 @@ class LiveLocalization {
     std::string odometry = "odom";  ///< topic of nav_msgs/Odometry, or "tf"
     std::string base = "base_footprint", odom = "odom", map = "map";  ///< frames
     double transformTolerance = 1.0;  ///< how far ahead transforms are valid [s]
+    bool tellsTransform = true;       ///< whether map -> odom is told
     std::filesystem::path belief;     ///< kept over runs; "": none
+    double saveSeconds = 10.0;        ///< between two times at which it is kept [s]
+    bool startsAnew = false;          ///< whether the start counts more than that belief
     double reportSeconds = 10.0;      ///< between two reports of what is wrong [s]
   };
 
+  /// @param requests what others ask of it
   /// @throws like Localization, std::invalid_argument for a topic that fits no scanner
-  explicit LiveLocalization(const Options& options);
+  LiveLocalization(const Options& options, LiveRequests& requests);
 
   /// Reads and tells by a node, whose threads use this from then on: it goes first.
   /// @throws std::runtime_error of DDS
@@ -43,17 +48,18 @@ class LiveLocalization {
   /// @throws like Localization; then nothing has changed
   void changeTables(const std::filesystem::path& tables);
 
+  /// Whether it tells where the robot is, which it does at first. Thread-safe.
+  void setActive(bool isActive);
+  /// Goes on with other settings of what it tells and keeps. They are for the thread of run().
+  void change(double transformTolerance, bool tellsTransform, double saveSeconds);
+
   /// Runs until @p goOn, which is asked now and then, says no.
   void run(const std::function<bool()>& goOn);
 
  private:
-  struct InitialPose {
-    Pose2 pose;
-    PoseCovariance covariance{};
-  };
   static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container);
-  void takeInitialPose(std::string_view cdr);
-  void startAtInitialPose();
+  void obey();
+  void startAt(const LiveRequests::InitialPose& wanted);
   void onMoment(const LiveReadings::Moment& moment);
   void tellPose(const PoseEstimate& estimate);
   void tellDiagnostics();
@@ -66,8 +72,9 @@ class LiveLocalization {
   const SensorId odometry_;
   LiveReadings readings_;
   MapTransform transform_;
-  std::mutex mutex_;  ///< for initialPose_
-  std::optional<InitialPose> initialPose_;
+  LiveRequests& requests_;  ///< borrowed
+  std::atomic<bool> isActive_ = true;
+  std::atomic<bool> tellsTransform_;
   Participant* node_ = nullptr;  ///< borrowed
   Participant::Sender pose_, particles_, diagnostics_;
   std::optional<Message> lastOdometry_;  ///< that the localization has

@@ -137,7 +137,7 @@ void LiveSetup::writeWorld(const std::filesystem::path& file) {
   writeWorldOf(*map, file);
 }
 
-void LiveSetup::writeRobot(const std::filesystem::path& file) const {
+void LiveSetup::writeRobot(const std::filesystem::path& file, const std::string& more) const {
   const std::lock_guard lock(mutex_);
   std::string text = robotHead(file.stem().string());
   for (std::size_t i = 0; i < scans_.size(); ++i) {
@@ -149,11 +149,12 @@ void LiveSetup::writeRobot(const std::filesystem::path& file) const {
     Scanner scanner = shape.scanner(mount.isUpsideDown());
     scanner.mount = mount.pose;
     scanner.maxRange = shape.usefulRange();
+    if (options_.maxRange > 0.0) scanner.maxRange = std::min(*scanner.maxRange, options_.maxRange);
     const double period = static_cast<double>(scans_[i]->scanTime);
     text += scannerToml(scanner, period >= 0.001 && period <= 10.0 ? period : 0.1,
                         parseSensorId(featureOf(options_.scans[i])));
   }
-  writeFile(file, text);
+  writeFile(file, text + more);
 }
 
 std::vector<std::string> LiveSetup::complaints() {

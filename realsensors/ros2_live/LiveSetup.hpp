@@ -24,6 +24,7 @@ class LiveSetup {
     std::vector<std::string> scans;  ///< topics
     std::string base = "base_footprint";
     std::string map = "map";  ///< topic of the map
+    double maxRange = 0.0;    ///< scans are cut there [m]; 0: where they say
   };
   LiveSetup(Options options, Participant& node);
 
@@ -38,8 +39,8 @@ class LiveSetup {
   /// Writes the newest map as a world. @throws std::runtime_error
   void writeWorld(const std::filesystem::path& file);
   /// Writes a robot file with the scanners, whose features are the topics' names.
-  /// @throws std::runtime_error
-  void writeRobot(const std::filesystem::path& file) const;
+  /// @param more tables of the file, as TOML @throws std::runtime_error
+  void writeRobot(const std::filesystem::path& file, const std::string& more = "") const;
   /// Name of the feature that writeRobot() gives to a topic of scans, e.g. "scan/LRF/scan".
   static std::string featureOf(const std::string& topic);
 

@@ -18,8 +18,18 @@ void MapTransform::sendBy(std::function<void(std::string_view)> send) {
   send_ = std::move(send);
 }
 
+void MapTransform::setTold(bool isTold) {
+  const std::lock_guard lock(mutex_);
+  isTold_ = isTold;
+}
+
+void MapTransform::setAhead(double ahead) {
+  const std::lock_guard lock(mutex_);
+  ahead_ = ahead;
+}
+
 void MapTransform::tell(Timestamp stamp) {
-  if (!send_ || !odomInMap_) return;
+  if (!send_ || !odomInMap_ || !isTold_) return;
   told_ = stamp;
   TfMessage message;
   message.transforms.push_back(
@@ -30,7 +40,7 @@ void MapTransform::tell(Timestamp stamp) {
 void MapTransform::follow(Timestamp odometry) {
   const std::lock_guard lock(mutex_);
   followed_ = odometry;
-  const Timestamp stamp = odometry + static_cast<Timestamp>(options_.ahead * 1e6);
+  const Timestamp stamp = odometry + static_cast<Timestamp>(ahead_ * 1e6);
   if (told_ && stamp <= *told_ && *told_ - stamp < kClockWasSet) return;
   tell(stamp);
 }
@@ -42,7 +52,7 @@ void MapTransform::correct(const Pose2& odomInMap) {
   if (isSame) return;
   odomInMap_ = odomInMap;
   if (!followed_) return;
-  const Timestamp stamp = *followed_ + static_cast<Timestamp>(options_.ahead * 1e6);
+  const Timestamp stamp = *followed_ + static_cast<Timestamp>(ahead_ * 1e6);
   const bool isRepeated = told_ && stamp <= *told_ && *told_ - stamp < kClockWasSet;
   tell(isRepeated ? *told_ + 1 : stamp);
 }

@@ -20,10 +20,13 @@ class MapTransform {
     std::string map = "map", odom = "odom";  ///< frames
     double ahead = 1.0;                      ///< how far [s]
   };
-  explicit MapTransform(Options options) : options_(std::move(options)) {}
+  explicit MapTransform(Options options) : options_(std::move(options)), ahead_(options_.ahead) {}
 
   /// Sets what sends the messages (tf2_msgs/TFMessage in CDR).
   void sendBy(std::function<void(std::string_view)> send);
+  /// Whether it is told, which it is at first, and how far ahead it is valid from now on [s].
+  void setTold(bool isTold);
+  void setAhead(double ahead);
   /// Tells the transform for odometry that has arrived; nothing before the first correction.
   void follow(Timestamp odometry);
   /// Takes the odometry's pose in the map, and tells it if it has changed.
@@ -35,6 +38,8 @@ class MapTransform {
   void tell(Timestamp stamp);
 
   const Options options_;
+  double ahead_;  ///< [s]
+  bool isTold_ = true;
   mutable std::mutex mutex_;
   std::function<void(std::string_view)> send_;
   std::optional<Pose2> odomInMap_;

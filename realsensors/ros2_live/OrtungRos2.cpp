@@ -1,34 +1,38 @@
 /// ortung-ros2: localizes a robot of ROS 2 without an installation of ROS, in amcl's place. It
-/// reads scan, odom, tf, tf_static and initialpose, and tells map -> odom at tf, amcl_pose,
-/// particle_cloud and diagnostics.
+/// reads scan, odom, tf, tf_static and initialpose, tells map -> odom at tf, amcl_pose,
+/// particle_cloud and diagnostics, and has amcl's parameters and services.
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <future>
 #include <iostream>
-#include <optional>
+#include <numbers>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "LiveLearning.hpp"
+#include "AmclParameters.hpp"
 #include "LiveLocalization.hpp"
-#include "LiveSetup.hpp"
+#include "LiveNode.hpp"
+#include "ParamsFile.hpp"
+#include "RosArguments.hpp"
 #include "ortung/base/Angles.hpp"
 
 namespace {
 
-using ortung::LocalizationConfig;
 using ortung::LocalizationStart;
+using ortung::ros2::AmclParameters;
+using ortung::ros2::AmclSettings;
 using ortung::ros2::Distro;
-using ortung::ros2::learnTables;
 using ortung::ros2::LiveLocalization;
-using ortung::ros2::LiveSetup;
-using ortung::ros2::Participant;
+using ortung::ros2::LiveNode;
+using ortung::ros2::readParamsFile;
+using ortung::ros2::RosArguments;
+using ortung::ros2::RosNames;
 
 std::atomic<bool> isStopped = false;
 
@@ -36,11 +40,9 @@ void onSignal(int) { isStopped = true; }
 
 /// What the command line says.
 struct Arguments {
-  LiveLocalization::Options localization;
-  Participant::Options node;
-  std::string map = "map";
-  std::filesystem::path folder;
-  std::string start = "global";
+  LiveNode::Options node;
+  std::vector<std::filesystem::path> files;  ///< of parameters
+  std::string start;                         ///< "": as parameters say
   std::string distro = "humble";
 };
 
@@ -68,15 +70,15 @@ LocalizationStart startOf(const std::string& text) {
 }
 
 void addOptions(CLI::App& app, Arguments& arguments) {
-  LiveLocalization::Options& options = arguments.localization;
+  LiveLocalization::Options& options = arguments.node.localization;
   app.add_option("--robot", options.localization.robot,
                  "Robot file (TOML); default: made of the scans and the frames of their scanners");
   app.add_option("--tables", options.localization.tables,
                  "Table file of `ortung learn`; default: learned of the map")
       ->needs("--robot");
-  app.add_option("--map", arguments.map, "Topic of the map, if it is learned")
+  app.add_option("--map", arguments.node.map, "Topic of the map, if it is learned")
       ->capture_default_str();
-  app.add_option("--folder", arguments.folder, "Folder for what is made of the map")
+  app.add_option("--folder", arguments.node.folder, "Folder for what is made of the map")
       ->capture_default_str();
   app.add_option("--scan", options.scans,
                  "Topic of a scanner, TOPIC or TOPIC=MODEL/TYPE/FEATURE; may be given again")
@@ -93,131 +95,116 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--belief", options.belief, "File that keeps the belief over runs");
   app.add_option("--seed", options.localization.seed, "Seed of all random numbers")
       ->capture_default_str();
-  app.add_option("--node", arguments.node.node, "Name of the node")->capture_default_str();
-  app.add_option("--start", arguments.start, "global, or x,y,degrees")->capture_default_str();
-  app.add_option("--distro", arguments.distro, "Whom it talks to: humble, or jazzy and later")
-      ->check(CLI::IsMember({"humble", "jazzy", "lyrical"}))
+  app.add_option("--node", arguments.node.node.names.node, "Name of the node")
+      ->capture_default_str();
+  app.add_option("--params-file", arguments.files,
+                 "Parameters of amcl, as nav2_params.yaml; may be given again");
+  app.add_option("--start", arguments.start,
+                 "global, or x,y,degrees; default: global, or where "
+                 "parameters say");
+  app.add_option("--distro", arguments.distro,
+                 "Release of those it talks to; default: ROS_DISTRO, or humble")
+      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "lyrical", "rolling"}))
       ->capture_default_str();
 }
 
-/// Waits for what is told of robot and map, and learns; again whenever the map has changed.
-class Learning {
- public:
-  Learning(Arguments& arguments, std::optional<LiveSetup>& setup, Participant& node)
-      : arguments_(arguments), setup_(setup) {
-    LiveSetup::Options wanted;
-    for (const std::string& scan : arguments.localization.scans)
-      wanted.scans.push_back(scan.substr(0, scan.find('=')));
-    wanted.base = arguments.localization.base;
-    wanted.map = arguments.map;
-    setup_.emplace(std::move(wanted), node);
-    std::filesystem::create_directories(arguments.folder);
-  }
-
-  /// @return the tables; nothing if the program was told to stop
-  std::optional<std::filesystem::path> next() {
-    const auto goOn = [this] { return tellWhatIsMissing(); };
-    missing_ = "the map at " + arguments_.map;
-    if (!setup_->waitForMap(goOn)) return std::nullopt;
-    const std::filesystem::path world = arguments_.folder / "map.toml";
-    std::filesystem::path& robot = arguments_.localization.localization.robot;
-    setup_->writeWorld(world);
-    if (robot.empty()) {
-      missing_ = "scans";
-      if (!setup_->waitForScanners(goOn)) return std::nullopt;
-      robot = arguments_.folder / "robot.toml";
-      setup_->writeRobot(robot);
-      for (std::string& scan : arguments_.localization.scans)
-        if (scan.find('=') == scan.npos) scan += "=" + LiveSetup::featureOf(scan);
+/// Takes the parameters of amcl where they stand in for options.
+void useParameters(Arguments& arguments, const RosArguments& ros) {
+  AmclParameters& parameters = arguments.node.parameters;
+  const auto set = [&](const std::string& where, const std::string& name,
+                       const std::string& value) {
+    try {
+      parameters.setText(name, value);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(where + ": " + error.what());
     }
-    missing_ = "tables";
-    auto tables = arguments_.folder / ("map" + std::to_string(++count_ % 2) + ".ortung");
-    if (!learnTables(world, robot, tables, goOn)) return std::nullopt;
-    return tables;
-  }
-
- private:
-  bool tellWhatIsMissing() {
-    for (const std::string& complaint : setup_->complaints())
-      std::cerr << "ortung-ros2: " << complaint << '\n';
-    const auto now = std::chrono::steady_clock::now();
-    constexpr std::chrono::seconds kBetween{5};
-    if (now - told_ >= kBetween) {
-      if (missing_ != "tables")
-        std::cout << "ortung-ros2: waiting for " << missing_ << '\n' << std::flush;
-      told_ = now;
-    }
-    return !isStopped;
-  }
-
-  Arguments& arguments_;
-  std::optional<LiveSetup>& setup_;
-  std::string missing_;
-  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
-  std::size_t count_ = 0;  ///< of maps that were learned
-};
-
-void run(Arguments& arguments) {
-  // The node goes first, since its threads use the others.
-  std::optional<LiveSetup> setup;
-  std::optional<LiveLocalization> localization;
-  Participant node(arguments.node);
-  std::cout << "ortung-ros2: listening in domain " << arguments.node.domain << '\n' << std::flush;
-  LocalizationConfig& config = arguments.localization.localization;
-  std::optional<Learning> learning;
-  if (config.tables.empty()) {
-    learning.emplace(arguments, setup, node);
-    const auto tables = learning->next();
-    if (!tables) return;
-    config.tables = *tables;
-  }
-  localization.emplace(arguments.localization);
-  localization->listen(node);
-  std::cout << "ortung-ros2: localizing" << '\n' << std::flush;
-  std::future<std::optional<std::filesystem::path>>
-      learned;  // in the background: the robot drives on
-  const auto isLearned = [&] {
-    return learned.valid() &&
-           learned.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   };
-  while (!isStopped) {
-    localization->run([&] {
-      return !isStopped && !isLearned() && (learned.valid() || !setup || !setup->hasNewMap());
-    });
-    if (isStopped) break;
-    if (!isLearned()) {
-      std::cout << "ortung-ros2: another map" << '\n' << std::flush;
-      learned = std::async(std::launch::async, [&] { return learning->next(); });
+  std::vector<RosArguments::Parameters> places;
+  for (const std::filesystem::path& file : arguments.files) places.push_back({file, "", ""});
+  places.insert(places.end(), ros.parameters.begin(), ros.parameters.end());
+  for (const auto& [file, name, value] : places) {
+    if (file.empty()) {
+      set("-p", name, value);
       continue;
     }
-    try {
-      if (const auto tables = learned.get()) localization->changeTables(*tables);
-    } catch (const std::exception& error) {
-      std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what() << '\n';
-    }
+    for (const auto& [key, text] : readParamsFile(file, arguments.node.node.names))
+      set(file.string(), key, text);
   }
+  const AmclSettings settings = parameters.settings();
+  LiveLocalization::Options& options = arguments.node.localization;
+  options.base = settings.base;
+  options.odom = settings.odom;
+  options.map = settings.map;
+  options.scans = {settings.scanTopic};
+  options.transformTolerance = settings.transformTolerance;
+  options.tellsTransform = settings.tellsTransform;
+  options.saveSeconds = settings.saveSeconds;
+  options.belief = settings.belief;
+  options.startsAnew = settings.initialPose && settings.alwaysResets;
+  if (settings.seed) options.localization.seed = *settings.seed;
+  arguments.node.map = settings.mapTopic;
+  if (!settings.initialPose) return;
+  // As wide as amcl's own.
+  options.localization.start = {LocalizationStart::Kind::kPose, *settings.initialPose, 0.5,
+                                std::numbers::pi / 12.0};
 }
 
-int start(int argc, char** argv) {
+/// Reads all that the command line says. @throws CLI::ParseError, std::runtime_error,
+/// std::invalid_argument
+void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& words) {
+  const RosArguments ros = RosArguments::read(words, arguments.node.node.names.node);
+  const auto parse = [&] {
+    std::vector<std::string> others(ros.others.rbegin(), ros.others.rend());
+    app.parse(others);
+  };
+  parse();  // for the files of parameters, and the node's name by which they are read
+  RosNames& names = arguments.node.node.names;
+  if (ros.namesNode) names.node = ros.names.node;
+  names.space = ros.names.space;
+  names.remaps = ros.names.remaps;
+  names.check();
+  useParameters(arguments, ros);
+  const std::string node = names.node;
+  parse();  // which counts more than they do
+  if (ros.namesNode) names.node = node;
+  if (!arguments.start.empty())
+    arguments.node.localization.localization.start = startOf(arguments.start);
+  LiveNode::Options& options = arguments.node;
+  const auto& distro = arguments.distro;
+  const bool isOld = distro == "humble" || distro == "galactic" || distro == "foxy";
+  options.node.distro = isOld ? Distro::kHumble : Distro::kJazzy;
+  options.node.readEnvironment();
+  options.localization.name = names.node;
+}
+
+int start(const std::vector<std::string>& words) {
   CLI::App app("Localizes a robot of ROS 2, in the place of Nav2's amcl", "ortung-ros2");
-  app.footer("ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE are as in ROS.");
+  app.footer(
+      "--ros-args -r FROM:=TO -p NAME:=VALUE --params-file FILE -- is understood as by any node.\n"
+      "ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE are as in ROS.");
   Arguments arguments;
-  arguments.folder = cacheFolder();
-  arguments.localization.localization.publish = true;
+  arguments.node.folder = cacheFolder();
+  arguments.node.localization.localization.publish = true;
+  arguments.node.node.names.node = "amcl";
+  if (const char* const distro = std::getenv("ROS_DISTRO"); distro != nullptr && *distro != '\0')
+    arguments.distro = distro;
   addOptions(app, arguments);
   try {
-    app.parse(argc, argv);
-    arguments.localization.localization.start = startOf(arguments.start);
+    read(app, arguments, words);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::cerr << "ortung-ros2: " << error.what() << '\n';
+    return 2;
   }
   try {
-    arguments.node.distro = arguments.distro == "humble" ? Distro::kHumble : Distro::kJazzy;
-    arguments.node.readEnvironment();
-    arguments.localization.name = arguments.node.node;
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
-    run(arguments);
+    const bool hasRobotFile = !arguments.node.localization.localization.robot.empty();
+    for (const std::string& remark : arguments.node.parameters.remarks(hasRobotFile))
+      std::cout << "ortung-ros2: " << remark << '\n';
+    LiveNode node(std::move(arguments.node));
+    node.run([] { return isStopped.load(); });
   } catch (const std::exception& error) {
     std::cerr << "ortung-ros2: " << error.what() << '\n';
     return 1;
@@ -229,7 +216,7 @@ int start(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return start(argc, argv);
+    return start({argv + 1, argv + argc});
   } catch (...) {  // what even an error could not be told of
     return 1;
   }

@@ -6,77 +6,24 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <map>
-#include <mutex>
 #include <stdexcept>
-#include <vector>
 
 #include "Cdr.hpp"
+#include "ParticipantParts.hpp"
+#include "Service.hpp"
 #include "TypeHashes.hpp"
 
 namespace ortung::ros2 {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::GUID_t;
-using eprosima::fastrtps::rtps::SerializedPayload_t;
-
-constexpr std::size_t kMostBytes = std::size_t{1} << 27;  ///< of a message; a map has millions
 constexpr int kDepth = 10;
 constexpr int kReading = 100;  ///< messages that wait for the thread that takes them
-
-/// A message as it is on the wire.
-struct Bytes {
-  std::string cdr;
-};
-
-/// Messages whose CDR somebody else makes and reads.
-class BytesType : public dds::TopicDataType {
- public:
-  explicit BytesType(const std::string& name) {
-    setName(name.c_str());
-    m_typeSize = 1024;  // what a message has at first; it grows
-    m_isGetKeyDefined = false;
-    auto_fill_type_object(false);
-    auto_fill_type_information(false);
-  }
-  bool serialize(void* data, SerializedPayload_t* payload) override {
-    const std::string& cdr = static_cast<Bytes*>(data)->cdr;
-    if (cdr.size() > payload->max_size) return false;
-    payload->encapsulation = CDR_LE;
-    payload->length = static_cast<std::uint32_t>(cdr.size());
-    std::memcpy(payload->data, cdr.data(), cdr.size());
-    return true;
-  }
-  bool deserialize(SerializedPayload_t* payload, void* data) override {
-    if (payload->length > kMostBytes) return false;
-    static_cast<Bytes*>(data)->cdr.assign(reinterpret_cast<const char*>(payload->data),
-                                          payload->length);
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    const auto size = static_cast<std::uint32_t>(static_cast<Bytes*>(data)->cdr.size());
-    return [size] { return size; };
-  }
-  void* createData() override { return new Bytes; }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-};
 
 /// Hands the messages of a topic on.
 class Listener : public dds::DataReaderListener {
@@ -151,31 +98,6 @@ void Participant::Options::readEnvironment() {
                              "', expected LOCALHOST, SUBNET or SYSTEM_DEFAULT");
 }
 
-struct Participant::Parts {
-  Options options;
-  dds::DomainParticipant* participant = nullptr;
-  dds::Publisher* publisher = nullptr;
-  dds::Subscriber* subscriber = nullptr;
-  std::map<std::string, dds::Topic*> topics;  ///< by name
-  std::vector<std::unique_ptr<Listener>> listeners;
-  std::vector<dds::DataReader*> readers;
-  std::vector<dds::DataWriter*> writers;
-  std::vector<GUID_t> readerIds, writerIds;
-  dds::DataWriter* graph = nullptr;  ///< tells of the node
-  std::atomic<std::uint64_t> dropped = 0, refused = 0;
-  std::mutex mutex;  ///< for all but these numbers
-
-  dds::Topic* topic(const std::string& name, const std::string& type);
-  dds::DataWriter* writer(const std::string& name, std::string_view type, Qos qos);
-  /// What an endpoint says of its type.
-  std::string userDataOf(std::string_view type) const {
-    const std::string_view hash = typeHashOf(type);
-    if (options.distro == Distro::kHumble || hash.empty()) return "";
-    return "typehash=RIHS01_" + std::string(hash) + ";";
-  }
-  void tellGraph();
-};
-
 dds::Topic* Participant::Parts::topic(const std::string& name, const std::string& type) {
   dds::Topic*& known = topics[name];
   if (known != nullptr) return known;
@@ -186,16 +108,37 @@ dds::Topic* Participant::Parts::topic(const std::string& name, const std::string
   return known;
 }
 
-dds::DataWriter* Participant::Parts::writer(const std::string& name, std::string_view type,
-                                            Qos qos) {
+dds::DataWriter* Participant::Parts::writer(const std::string& name, const std::string& type,
+                                            const std::string& userData, Qos qos,
+                                            dds::DataWriterListener* listener) {
   dds::DataWriterQos wanted = dds::DATAWRITER_QOS_DEFAULT;
-  setQos(wanted, qos, kDepth, userDataOf(type));
+  setQos(wanted, qos, kDepth, userData);
   // Not by DDS's own thread: in Fast DDS 2.9 it and the end of a reader may wait for each other for
   // ever. Sending does not block, since the transport drops what does not fit.
   wanted.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-  dds::DataWriter* const made = publisher->create_datawriter(topic(name, ddsType(type)), wanted);
+  const auto mask =
+      listener == nullptr ? dds::StatusMask::none() : dds::StatusMask::publication_matched();
+  dds::DataWriter* const made =
+      publisher->create_datawriter(topic(name, type), wanted, listener, mask);
   if (made == nullptr) throw std::runtime_error("DDS can't write " + name);
   return made;
+}
+
+dds::DataReader* Participant::Parts::reader(const std::string& name, const std::string& type,
+                                            const std::string& userData, Qos qos,
+                                            dds::DataReaderListener* listener) {
+  dds::DataReaderQos wanted = dds::DATAREADER_QOS_DEFAULT;
+  setQos(wanted, qos, kReading, userData);
+  dds::DataReader* const made = subscriber->create_datareader(topic(name, type), wanted, listener,
+                                                              dds::StatusMask::data_available());
+  if (made == nullptr) throw std::runtime_error("DDS can't read " + name);
+  return made;
+}
+
+std::string Participant::Parts::userDataOf(std::string_view type) const {
+  const std::string_view hash = typeHashOf(type);
+  if (options.distro == Distro::kHumble || hash.empty()) return "";
+  return "typehash=RIHS01_" + std::string(hash) + ";";
 }
 
 /// Tells which topics belong to the node: rmw_dds_common/msg/ParticipantEntitiesInfo.
@@ -214,8 +157,8 @@ void Participant::Parts::tellGraph() {
   };
   add(participant->guid());
   out(std::uint32_t{1});
-  out(options.space);
-  out(options.node);
+  out(options.names.space);
+  out(options.names.node);
   addAll(readerIds);
   addAll(writerIds);
   Bytes bytes{out.take()};
@@ -232,7 +175,7 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
-  qos.name(options.node);
+  qos.name(options.names.node);
   const std::string enclave = "enclave=/;";
   qos.user_data().setValue({enclave.begin(), enclave.end()});
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -251,14 +194,17 @@ Participant::Participant(const Options& options) : parts_(std::make_unique<Parts
   p.subscriber = p.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   if (p.publisher == nullptr || p.subscriber == nullptr)
     throw std::runtime_error("DDS has no room for a node");
-  p.graph =
-      p.writer("ros_discovery_info", "rmw_dds_common/msg/ParticipantEntitiesInfo", Qos::kLatched);
+  constexpr std::string_view kGraph = "rmw_dds_common/msg/ParticipantEntitiesInfo";
+  p.graph = p.writer("ros_discovery_info", ddsType(kGraph), p.userDataOf(kGraph), Qos::kLatched);
   p.tellGraph();
 }
 
 Participant::~Participant() {
   Parts& p = *parts_;
+  for (const auto& service : p.services) service->close();
+  p.desk.close();
   for (dds::DataReader* reader : p.readers) reader->set_listener(nullptr);
+  for (dds::DataWriter* writer : p.writers) writer->set_listener(nullptr);
   if (p.participant == nullptr) return;
   p.participant->delete_contained_entities();
   dds::DomainParticipantFactory::get_instance()->delete_participant(p.participant);
@@ -267,13 +213,9 @@ Participant::~Participant() {
 void Participant::subscribe(const std::string& topic, std::string_view type, Qos qos, Taker taker) {
   Parts& p = *parts_;
   const std::lock_guard lock(p.mutex);
-  dds::DataReaderQos wanted = dds::DATAREADER_QOS_DEFAULT;
-  setQos(wanted, qos, kReading, p.userDataOf(type));
   p.listeners.push_back(std::make_unique<Listener>(std::move(taker), p.refused));
-  dds::DataReader* const reader =
-      p.subscriber->create_datareader(p.topic(ddsTopic(topic), ddsType(type)), wanted,
-                                      p.listeners.back().get(), dds::StatusMask::data_available());
-  if (reader == nullptr) throw std::runtime_error("DDS can't read " + topic);
+  dds::DataReader* const reader = p.reader(ddsTopic(p.options.names.resolve(topic)), ddsType(type),
+                                           p.userDataOf(type), qos, p.listeners.back().get());
   p.readers.push_back(reader);
   p.readerIds.push_back(reader->guid());
   p.tellGraph();
@@ -282,14 +224,22 @@ void Participant::subscribe(const std::string& topic, std::string_view type, Qos
 Participant::Sender Participant::publish(const std::string& topic, std::string_view type, Qos qos) {
   Parts& p = *parts_;
   const std::lock_guard lock(p.mutex);
-  dds::DataWriter* const writer = p.writer(ddsTopic(topic), type, qos);
-  p.writers.push_back(writer);
+  dds::DataWriter* const writer =
+      p.writer(ddsTopic(p.options.names.resolve(topic)), ddsType(type), p.userDataOf(type), qos);
   p.writerIds.push_back(writer->guid());
   p.tellGraph();
   return [&p, writer](std::string_view cdr) {
     Bytes bytes{std::string(cdr)};
     if (!writer->write(&bytes)) ++p.dropped;
   };
+}
+
+void Participant::serve(const std::string& service, std::string_view type, Handler handler) {
+  Parts& p = *parts_;
+  const std::lock_guard lock(p.mutex);
+  p.services.push_back(std::make_unique<Service>(p, std::move(handler)));
+  p.services.back()->open(p.options.names.resolve(service), type);
+  p.tellGraph();
 }
 
 std::uint64_t Participant::dropped() const { return parts_->dropped; }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "RosNames.hpp"
+
 namespace ortung::ros2 {
 
 /// Quality of service of a topic, as profiles of ROS 2 have it.
@@ -27,10 +29,9 @@ enum class Distro : std::uint8_t {
 class Participant {
  public:
   struct Options {
-    std::string node = "ortung";  ///< name of the node
-    std::string space = "/";      ///< its namespace, which begins with '/'
-    std::uint32_t domain = 0;     ///< ROS_DOMAIN_ID
-    bool isLocal = false;         ///< whether it talks on this machine only
+    RosNames names;            ///< of the node, and of its topics and services
+    std::uint32_t domain = 0;  ///< ROS_DOMAIN_ID
+    bool isLocal = false;      ///< whether it talks on this machine only
     Distro distro = Distro::kHumble;
     /// Reads domain and range from the environment: ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY,
     /// ROS_AUTOMATIC_DISCOVERY_RANGE. @throws std::runtime_error naming a variable that is no such
@@ -40,6 +41,8 @@ class Participant {
   /// of DDS. A message for which it throws is counted as refused.
   using Taker = std::function<void(std::string_view cdr)>;
   using Sender = std::function<void(std::string_view cdr)>;
+  /// Answers a request of a service, both as bytes of CDR.
+  using Handler = std::function<std::string(std::string_view cdr)>;
 
   /// @throws std::runtime_error if DDS can't begin
   explicit Participant(const Options& options);
@@ -47,12 +50,19 @@ class Participant {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  /// Reads a topic. @param topic as ROS names it, "/scan" @param type "sensor_msgs/msg/LaserScan"
+  /// Reads a topic. @param topic as a node names it: "scan", "/tf" @param type
+  /// "sensor_msgs/msg/LaserScan"
   /// @throws std::runtime_error
   void subscribe(const std::string& topic, std::string_view type, Qos qos, Taker taker);
   /// Offers a topic. @return what sends a message; valid as long as this
   /// @throws std::runtime_error
   Sender publish(const std::string& topic, std::string_view type, Qos qos);
+  /// Offers a service as rmw_fastrtps does, which tells in the head of a DDS message whose request
+  /// is answered; nodes on another DDS do so in another way, and don't find it.
+  /// Requests are answered one at a time on a thread of their own. One for which @p handler throws
+  /// gets no answer and is counted as refused. @param service as a node names it: "~/get_state"
+  /// @param type "lifecycle_msgs/srv/GetState" @throws std::runtime_error
+  void serve(const std::string& service, std::string_view type, Handler handler);
 
   /// Number of messages that were not sent, since DDS refused them.
   std::uint64_t dropped() const;
@@ -61,10 +71,11 @@ class Participant {
 
  private:
   struct Parts;
+  class Service;
   std::unique_ptr<Parts> parts_;
 };
 
-/// "rt/scan" of "/scan", as topics of ROS are called in DDS.
+/// "rt/scan" of "/scan", as topics of ROS are called in DDS. @param topic the whole name
 std::string ddsTopic(const std::string& topic);
 /// "sensor_msgs::msg::dds_::LaserScan_" of "sensor_msgs/msg/LaserScan".
 std::string ddsType(std::string_view type);

@@ -91,11 +91,11 @@ TEST_F(ParticipantTest, SendsTheBytesThatItIsGiven) {
   Participant::Options options;
   options.isLocal = true;
   options.domain = 1 + static_cast<std::uint32_t>(getpid()) % 100;  // one of the test's own
-  options.node = "one";
+  options.names.node = "one";
   Inbox inbox;
   Inbox late;
   Participant one(options);
-  options.node = "two";
+  options.names.node = "two";
   Participant two(options);
   const auto latched = one.publish("/map", "nav_msgs/msg/OccupancyGrid", Qos::kLatched);
   const auto send = one.publish("/scan", "sensor_msgs/msg/LaserScan", Qos::kSensor);

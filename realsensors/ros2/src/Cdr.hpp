@@ -117,7 +117,7 @@ class CdrReader {
       list.resize(count(sizeof(T)));
       take(list.data(), list.size());
     } else {
-      constexpr std::size_t kLeastOfAnElement = 8;
+      constexpr std::size_t kLeastOfAnElement = std::is_same_v<T, std::string> ? 4 : 8;
       const std::uint32_t size = count(kLeastOfAnElement);
       list.clear();
       for (std::uint32_t i = 0; i < size && why_.empty(); ++i) (*this)(list.emplace_back());

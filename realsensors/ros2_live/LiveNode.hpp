@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "AmclParameters.hpp"
+#include "Bond.hpp"
+#include "Lifecycle.hpp"
+#include "LiveLocalization.hpp"
+#include "LiveRequests.hpp"
+#include "LiveSetup.hpp"
+#include "ParameterServices.hpp"
+#include "Participant.hpp"
+
+namespace ortung::ros2 {
+
+/// A node of ROS 2 in amcl's place: learns the map that is told, localizes, and is led by a
+/// lifecycle manager if there is one. Not thread-safe.
+class LiveNode {
+ public:
+  struct Options {
+    LiveLocalization::Options localization;  ///< without tables these are learned of the map
+    Participant::Options node;
+    AmclParameters parameters;
+    std::string map = "map";       ///< topic of the map
+    std::filesystem::path folder;  ///< for what is made of the map
+  };
+
+  /// @param options its settings, where they are amcl's, stand in all parts of it
+  /// @throws std::runtime_error of DDS
+  explicit LiveNode(Options options);
+
+  /// Runs until @p isStopped says so. @throws like LiveLocalization
+  void run(const std::function<bool()>& isStopped);
+
+ private:
+  void onTransition(Lifecycle::Transition transition, Lifecycle::State state);
+  void listenForMap();
+  std::optional<std::filesystem::path> learn();
+  bool goOnWaiting();
+  void localize();
+  bool hasNewMap() const;
+  bool hasChangedSettings() const;
+  void applySettings();
+  void writeRobot();
+
+  Options options_;
+  const bool makesRobot_;     ///< whether the robot file is made of messages
+  AmclSettings settings_;     ///< in force
+  mutable std::mutex mutex_;  ///< for wanted_
+  std::optional<AmclSettings> wanted_;
+  std::function<bool()> isStopped_;
+  std::string missing_;
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+  std::size_t learned_ = 0;  ///< number of maps
+
+  // The node goes first, since its threads use the others.
+  LiveRequests requests_;
+  std::atomic<bool> isActive_;
+  Bond bond_;
+  std::optional<Lifecycle> lifecycle_;
+  std::optional<ParameterServices> services_;
+  std::optional<LiveSetup> setup_;
+  std::mutex localizationMutex_;  ///< for whether there is one
+  std::unique_ptr<LiveLocalization> localization_;
+  Participant node_;
+};
+
+}  // namespace ortung::ros2

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "RosNames.hpp"
+
+namespace ortung::ros2 {
+
+/// Parameters by their names, "initial_pose.x"; values are YAML: "0.2", "map", "[1, 2]".
+using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads from a file of parameters, as nav2_params.yaml is one, what is for a node: the tables
+/// `ros__parameters` below its name, whole or with * for one word of it and ** for any, or below
+/// the words of its namespace. Tables in it are names with dots. What is for other nodes is left
+/// out.
+/// @return in the order of the file; later ones count
+/// @throws std::runtime_error naming file and line of what is no such file, and if nothing in it is
+///   for the node
+ParameterTexts readParamsFile(const std::filesystem::path& file, const RosNames& names);
+
+}  // namespace ortung::ros2
