@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "ortung/base/Angles.hpp"
+#include "ortung/mcl/MclConfig.hpp"
 #include "ortung/realsensors/LogSource.hpp"
 
 namespace ortung::ros2 {
@@ -258,9 +259,13 @@ std::string AmclParameters::mclToml() const {
   };
   // As in amcl, the least number counts if it is more than the greatest.
   const double least = number("min_particles");
-  add("max_particles", "particles",
-      isOwn("min_particles") ? std::max(number("max_particles"), least) : number("max_particles"));
-  add("min_particles", "min_particles", least);
+  double greatest = isOwn("max_particles") ? number("max_particles")
+                                           : static_cast<double>(MclConfig().maxSamples);
+  if (isOwn("min_particles")) greatest = std::max(greatest, least);
+  if (isOwn("max_particles") || isOwn("min_particles"))
+    keys += "particles = " + std::to_string(std::lround(greatest)) + "\n";
+  if (isOwn("min_particles"))
+    keys += "min_particles = " + std::to_string(std::lround(least)) + "\n";
   add("pf_err", "kld_error", number("pf_err"));
   add("pf_z", "kld_quantile", number("pf_z"));
   add("update_min_d", "min_distance_m", number("update_min_d"));

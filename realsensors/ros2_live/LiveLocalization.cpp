@@ -179,8 +179,8 @@ void LiveLocalization::tellPose(const PoseEstimate& estimate) {
       cloud.particles.push_back({fromPose2(sample.pose), sample.weight});
       sum += sample.weight;
     }
-    for (Particle& particle : cloud.particles)
-      if (sum > 0.0) particle.weight /= sum;
+    if (cloud.particles.empty() || !(sum > 0.0)) return;  // nothing was weighed yet
+    for (Particle& particle : cloud.particles) particle.weight /= sum;
     particles_(toCdr(cloud));
   }
 }

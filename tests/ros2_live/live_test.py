@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""live_test.py ORTUNG ORTUNG_ROS2 PEER DATA  a robot of ROS 2 that knows nothing of ours, a program on Cyclone DDS with types of its own
+"""live_test.py ORTUNG ORTUNG_ROS2 PEER CLIENT DATA  a robot of ROS 2 that knows nothing of ours, a program on Cyclone DDS with types of its own
 generator, says what a real log has, and hears from ortung-ros2 where it is: the same poses as `ortung localize` finds in the log."""
 import math
 import os
@@ -10,12 +10,15 @@ import subprocess
 import sys
 import tempfile
 
-ortung, node, peer, data = map(pathlib.Path, sys.argv[1:])
+from cdr import Writer
+
+ortung, node, peer, client, data = map(pathlib.Path, sys.argv[1:])
 LOG = data / "mrpt_uwb_ro"
 if not LOG.is_dir():
     print('live_test.py: Skipped\n"%s" is not here' % LOG)
     sys.exit(77)
 SECONDS, PACE = 40.0, 8.0
+HERE = pathlib.Path(__file__).parent
 OFFSET = 2**31
 
 
@@ -77,7 +80,8 @@ def main():
         expected = [[float(word) for word in line.split()[:4]] for line in (folder / "poses.txt").read_text().splitlines() if line[0] != "#"]
 
         known = ["--robot", folder / "robot.toml", "--tables", folder / "log.ortung"]
-        heard, said = live(folder, known, ["ready", *lines])
+        # Parameters of Nav2 as they are change nothing.
+        heard, said = live(folder, [*known, "--params-file", HERE / "nav2_params.yaml"], ["ready", *lines])
         [[seconds]] = [words[1:] for words in heard if words[0] == "matched"]
         print("matched after %s s" % seconds)
         check(heard, expected, lines, said)
@@ -95,19 +99,33 @@ def main():
         maps = ["map %s %s %s %s" % (file, yaml["resolution"], x, y) for file in (base.with_suffix(".pgm"), folder / "other.pgm")]
         half = len(lines) // 2
         told = [maps[0], lines[0], "sample " + first, "ready", *lines[1:half], maps[1], *lines[half:]]
-        heard, said = live(folder, ["--folder", folder / "cache"], told)
+        heard, said = live(folder, ["--folder", folder / "cache"], told, asked=[
+            "wait 2.5", "call /amcl/set_parameters rcl_interfaces/srv/SetParameters " + set_count("max_particles", 5000),
+            "call /request_nomotion_update std_srvs/srv/Empty " + Writer().number("B", 0).hex()])
+        expect("particles = 5000" in (folder / "cache" / "robot.toml").read_text(), "a parameter that was set while it ran")
         expect(said[0].count("localizing") == 1 and said[0].count("another map") == 1, "a map that replaces another: %s" % said[0])
-        check(heard, expected, lines, said, 0.1)
+        check(heard, expected, lines, said, 0.1, asked=1)
 
 
-def live(folder, arguments, lines):
-    """What a robot hears from ortung-ros2 that says these lines, and what that says itself."""
+def set_count(name, count):
+    writer = Writer().number("I", 1).text(name).number("B", 2).number("?", False).number("q", count).number("d", 0.0).text("")
+    for _ in range(5):
+        writer.number("I", 0)
+    return writer.hex()
+
+
+def live(folder, arguments, lines, asked=()):
+    """What a robot hears from ortung-ros2 that says these lines while others ask for services, and what that says itself."""
     domain = 1 + os.getpid() % 100
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1", "HOME": str(folder),
                    "CYCLONEDDS_URI": '<General><Interfaces><NetworkInterface name="lo" multicast="true"/></Interfaces>'
                                      "<AllowMulticast>true</AllowMulticast></General>"}
-    running = subprocess.Popen([str(word) for word in [node, "--base-frame", "base_link", "--node", "amcl", *arguments]], env=environment,
+    running = subprocess.Popen([str(word) for word in [node, "--base-frame", "base_link", *arguments]], env=environment,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    asking = subprocess.Popen([client, str(domain)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) if asked else None
+    if asking:
+        asking.stdin.write("\n".join(asked) + "\n")
+        asking.stdin.close()
     try:
         heard = subprocess.run([peer, str(domain), str(PACE)], input="\n".join(lines) + "\n", env=environment, capture_output=True,
                                text=True, timeout=120)
@@ -115,17 +133,24 @@ def live(folder, arguments, lines):
         running.send_signal(signal.SIGTERM)
         said = running.communicate(timeout=30)
     expect(heard.returncode == 0, heard.stderr + str(said))
+    if asking:
+        answers = asking.stdout.read().split("\n")[:-1]
+        expect(asking.wait(timeout=30) == 0 and len(answers) + 1 == len(asked) and "none" not in answers, "answers: %s" % answers)
     expect(running.returncode == 0, "it ends with %s: %s" % (running.returncode, said))
     if log := os.environ.get("LIVE_TEST_HEARD"):
         pathlib.Path(log).write_text(heard.stdout + str(said))
     return [line.split() for line in heard.stdout.splitlines()], said
 
 
-def check(heard, expected, lines, said, tolerance=1e-4):  # digits of the file
+def check(heard, expected, lines, said, tolerance=1e-4, asked=0):  # digits of the file
+    """@param asked how many poses were asked for, at any time"""
     of = lambda kind: [words[1:] for words in heard if words[0] == kind]
     expect(any(n[:2] == ["/", "amcl"] and int(n[2]) >= 5 and int(n[3]) >= 4 for n in of("node")), "the graph has the node: %s" % of("node"))
     found = {int(us): pose for us, *pose in expected}
     poses = of("pose")
+    others = [pose for pose in poses if int(pose[0]) // 1000 not in found]
+    expect(len(others) <= asked, "poses at other times: %s" % others)
+    poses = [pose for pose in poses if pose not in others]
     clouds = of("particles")
     print("%d poses, %d particle clouds, %d transforms; `ortung localize` has %d poses" % (len(poses), len(clouds), len(of("tf")), len(found)))
     # Best effort, and of poses the last one only for who is late: some may be lost, none may be another.
