@@ -4,6 +4,7 @@
 # ortung_package_of(ortung_lrf_data package)  sets package to the one that the target belongs to. What the target is
 # built on decides, through all our targets, so nobody keeps a list:
 #   python3-ortung   the Python module
+#   ortung-ros2      whatever talks DDS
 #   ortung-devices   whatever needs OpenCV, MRPT or devices of a robot
 #   ortung-sim       whatever needs the simulator, or serves it
 #   libortung0       libraries that need the standard library alone
@@ -18,6 +19,8 @@ function(ortung_package_of target out)
   list(FILTER foreign EXCLUDE REGEX "^(ortung_.*|${target}|Threads::Threads|\\$<BUILD_INTERFACE:.*)$")
   if(needs MATCHES "(^|;)pybind11::")
     set(package python3-ortung)
+  elseif(needs MATCHES "(^|;)fastrtps(;|$)")
+    set(package ortung-ros2)
   elseif(needs MATCHES "(^|;)(opencv_|mrpt::|ortung_devices(;|$))")
     set(package ortung-devices)
   elseif(needs MATCHES "(^|;)ortung_(sim_api|server|web)(;|$)")
@@ -219,6 +222,16 @@ macro(ortung_make_packages)
     "calibrates cameras, and reads and writes MRPT's rawlogs."
     "."
     "This is the part that needs OpenCV and MRPT.")
+  if(TARGET ortung-ros2)
+    ortung_describe(ortung-ros2 SECTION science NEEDS ortung ortung-sim TEXT
+      "robot localization: a node of ROS 2"
+      "Localizes a robot that runs ROS 2, in the place of Nav2's amcl: reads scans,"
+      "odometry, frames and the map, and tells the transform from map to odometry,"
+      "with amcl's parameters, services and lifecycle. It talks DDS itself, so no"
+      "part of ROS has to be installed.")
+    install(FILES realsensors/ros2_live/launch/localization.launch.py DESTINATION ${CMAKE_INSTALL_DATADIR}/ortung/launch
+            COMPONENT ortung-ros2)
+  endif()
   if(TARGET ortung_python)
     math(EXPR next "${Python_VERSION_MINOR} + 1")
     ortung_describe(python3-ortung SECTION python
@@ -238,7 +251,11 @@ macro(ortung_make_packages)
   # Man pages and completions of the program, once a target makes them.
   if(TARGET ortung_manuals)
     install(DIRECTORY ${PROJECT_BINARY_DIR}/manuals/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ortung
-            EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.1.gz")
+            EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.1.gz" PATTERN "ortung-ros2*" EXCLUDE)
+    if(TARGET ortung-ros2)
+      install(DIRECTORY ${PROJECT_BINARY_DIR}/manuals/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ortung-ros2
+              EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "ortung-ros2*.1.gz")
+    endif()
     install(FILES ${PROJECT_BINARY_DIR}/manuals/completions/ortung.bash RENAME ortung
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT ortung EXCLUDE_FROM_ALL)
     install(FILES ${PROJECT_BINARY_DIR}/manuals/completions/_ortung

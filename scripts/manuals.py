@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""manuals.py DESCRIPTION VERSION OUT  makes man pages and completion for shells of what `ortung --describe` printed into the
-file DESCRIPTION: OUT/man/*.1.gz, OUT/completions/ortung.bash, _ortung (zsh) and ortung.fish."""
+"""manuals.py DESCRIPTION VERSION OUT [PROGRAM...]  makes man pages and completion for shells of what `ortung --describe` printed into the
+file DESCRIPTION: OUT/man/*.1.gz, OUT/completions/ortung.bash, _ortung (zsh) and ortung.fish; and pages of other programs by their --help."""
 import gzip
 import json
 import pathlib
 import re
+import subprocess
 import sys
 
 HELP = "ortung"
@@ -48,6 +49,13 @@ def page(command, version):
     lines += [".SH NOTES", ".nf", roff(command["footer"].strip()), ".fi"]
     lines += [".SH SEE ALSO", ".BR ortung (1)"]
     return "\n".join(lines) + "\n"
+
+
+def page_of_help(name, text, version):
+    """A page of a program that tells its help alone, whose first line is a summary."""
+    summary, _, rest = text.strip().partition("\n")
+    return "\n".join([f'.TH {name.upper()} 1 "" "Ortung {version}" "Ortung"', ".SH NAME", f"{roff(name)} \\- {roff(summary)}",
+                      ".SH DESCRIPTION", ".nf", roff(rest.strip()), ".fi", ".SH SEE ALSO", ".BR ortung (1)"]) + "\n"
 
 
 def main_page(commands, version):
@@ -179,7 +187,7 @@ def write_page(file, text):
 
 
 def main():
-    description, version, out = sys.argv[1:4]
+    description, version, out, *programs = sys.argv[1:]
     commands = [json.loads(line) for line in pathlib.Path(description).read_text().splitlines() if line]
     if not commands:
         sys.exit(f"manuals: {description} describes no command")
@@ -191,6 +199,9 @@ def main():
             old.unlink()
     for command in commands:
         write_page(man / f"{command['name'].replace(' ', '-')}.1.gz", page(command, version))
+    for program in map(pathlib.Path, programs):
+        said = subprocess.run([program, "--help"], check=True, capture_output=True, text=True).stdout
+        write_page(man / f"{program.name}.1.gz", page_of_help(program.name, said, version))
     write_page(man / "ortung.1.gz", main_page(commands, version))
     (completions / "ortung.bash").write_text(bash(commands))
     (completions / "_ortung").write_text(zsh(commands))

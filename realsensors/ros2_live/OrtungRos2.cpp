@@ -78,8 +78,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       ->needs("--robot");
   app.add_option("--map", arguments.node.map, "Topic of the map, if it is learned")
       ->capture_default_str();
-  app.add_option("--folder", arguments.node.folder, "Folder for what is made of the map")
-      ->capture_default_str();
+  app.add_option("--folder", arguments.node.folder,
+                 "Folder for what is made of the map; default: in the user's cache");
   app.add_option("--scan", options.scans,
                  "Topic of a scanner, TOPIC or TOPIC=MODEL/TYPE/FEATURE; may be given again")
       ->capture_default_str();
@@ -167,6 +167,7 @@ void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& w
   const std::string node = names.node;
   parse();  // which counts more than they do
   if (ros.namesNode) names.node = node;
+  if (arguments.node.folder.empty()) arguments.node.folder = cacheFolder();
   if (!arguments.start.empty())
     arguments.node.localization.localization.start = startOf(arguments.start);
   LiveNode::Options& options = arguments.node;
@@ -183,7 +184,6 @@ int start(const std::vector<std::string>& words) {
       "--ros-args -r FROM:=TO -p NAME:=VALUE --params-file FILE -- is understood as by any node.\n"
       "ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE are as in ROS.");
   Arguments arguments;
-  arguments.node.folder = cacheFolder();
   arguments.node.localization.localization.publish = true;
   arguments.node.node.names.node = "amcl";
   if (const char* const distro = std::getenv("ROS_DISTRO"); distro != nullptr && *distro != '\0')

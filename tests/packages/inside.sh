@@ -61,6 +61,18 @@ if ortung demo --help | grep -q -- '--once'; then
 fi
 say "learned, simulated, localized: $poses poses"
 
+# A node of ROS 2 begins to listen, and ends when it is told to.
+if command -v ortung-ros2 > /dev/null; then
+  ROS_LOCALHOST_ONLY=1 ortung-ros2 --folder ros2 > told 2>&1 &
+  node=$!
+  for _ in $(seq 100); do
+    grep -q listening told && break
+    sleep 0.1
+  done
+  kill $node && wait $node || fail "ortung-ros2: $(cat told)"
+  say "ortung-ros2: $(head -1 told)"
+fi
+
 install /packages/libortung-dev_*.deb
 cmake -S /usr/share/doc/libortung-dev/examples -B build > log || fail "$(cat log)"
 cmake --build build > log 2>&1 || fail "$(cat log)"
