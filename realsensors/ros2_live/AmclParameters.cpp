@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "ortung/base/Angles.hpp"
 #include "ortung/mcl/MclConfig.hpp"
@@ -31,25 +32,26 @@ constexpr std::string_view kScans = "scans tell it themselves";
 constexpr std::string_view kRos = "it is for other parts of ROS";
 constexpr std::string_view kBeluga = "it is Beluga's alone";
 
-std::vector<AmclParameters::Description> table() {
-  using Text = std::string;
-  const std::int64_t few = 500;
-  const std::int64_t many = 2000;
-  const std::int64_t beams = 60;
-  const std::int64_t one = 1;
-  const std::int64_t none = -1;
+using Table = std::vector<AmclParameters::Description>;
+using Text = std::string;
+
+/// Frames, topics and the transform.
+Table framesParameters() {
   return {
-      // frames and topics
       {"base_frame_id", Text("base_footprint"), 0, 0, "frame of the robot", Kind::kFixed},
       {"odom_frame_id", Text("odom"), 0, 0, "frame of odometry", Kind::kFixed},
       {"global_frame_id", Text("map"), 0, 0, "frame of the map", Kind::kFixed},
       {"scan_topic", Text("scan"), 0, 0, "topic of scans", Kind::kFixed},
       {"map_topic", Text("map"), 0, 0, "topic of the map", Kind::kFixed},
       {"first_map_only", false, 0, 0, "whether later maps are left out", Kind::kFixed},
-      // the transform
       {"tf_broadcast", true, 0, 0, "whether map -> odom is told", Kind::kLive},
       {"transform_tolerance", 1.0, 0, 10, "how far ahead map -> odom is valid [s]", Kind::kLive},
-      // motion
+  };
+}
+
+/// Motion and the filter.
+Table motionParameters() {
+  return {
       {"robot_model_type", Text("nav2_amcl::DifferentialMotionModel"), 0, 0,
        "how the robot moves: DifferentialMotionModel or OmniMotionModel", Kind::kLive},
       {"alpha1", 0.2, 0, 100, "noise of turns by turning", Kind::kLive, true},
@@ -57,21 +59,26 @@ std::vector<AmclParameters::Description> table() {
       {"alpha3", 0.2, 0, 100, "noise of ways by driving", Kind::kLive, true},
       {"alpha4", 0.2, 0, 100, "noise of ways by turning", Kind::kLive, true},
       {"alpha5", 0.2, 0, 100, "noise to the side is that along the way", Kind::kNone},
-      // the filter
-      {"min_particles", few, 10, 1e6, "least number of samples", Kind::kLive, true},
-      {"max_particles", many, 10, 1e6, "greatest number of samples", Kind::kLive, true},
+      {"min_particles", std::int64_t{500}, 10, 1e6, "least number of samples", Kind::kLive, true},
+      {"max_particles", std::int64_t{2000}, 10, 1e6, "greatest number of samples", Kind::kLive,
+       true},
       {"pf_err", 0.05, 1e-3, 0.999, "error of the sampled distribution", Kind::kLive, true},
       {"pf_z", 0.99, 0.1, 9.9, "quantile of that error", Kind::kLive, true},
       {"update_min_d", 0.25, 0, 100, "way after which scans are weighed [m]", Kind::kLive, true},
       {"update_min_a", 0.2, 0, 6.28, "turn after which scans are weighed [rad]", Kind::kLive, true},
-      {"resample_interval", one, 1, kMost, kResampling, Kind::kNone},
+      {"resample_interval", std::int64_t{1}, 1, kMost, kResampling, Kind::kNone},
       {"recovery_alpha_slow", 0.0, 0, 1, kRecovery, Kind::kNone},
       {"recovery_alpha_fast", 0.0, 0, 1, kRecovery, Kind::kNone},
-      // scans
+  };
+}
+
+/// Scans.
+Table scansParameters() {
+  return {
       {"laser_max_range", 100.0, -1, 1000, "greatest range that counts [m]", Kind::kFixed},
       {"laser_min_range", -1.0, -1, 1000, kScans, Kind::kNone},
       {"laser_model_type", Text("likelihood_field"), 0, 0, kLearned, Kind::kNone},
-      {"max_beams", beams, 1, kMost, kAllBeams, Kind::kNone},
+      {"max_beams", std::int64_t{60}, 1, kMost, kAllBeams, Kind::kNone},
       {"laser_likelihood_max_dist", 2.0, 0, kMost, kLearned, Kind::kNone},
       {"sigma_hit", 0.2, 0, kMost, kLearned, Kind::kNone},
       {"z_hit", 0.5, 0, kMost, kLearned, Kind::kNone},
@@ -83,7 +90,12 @@ std::vector<AmclParameters::Description> table() {
       {"beam_skip_distance", 0.5, 0, kMost, kChanges, Kind::kNone},
       {"beam_skip_threshold", 0.3, 0, kMost, kChanges, Kind::kNone},
       {"beam_skip_error_threshold", 0.9, 0, kMost, kChanges, Kind::kNone},
-      // the start
+  };
+}
+
+/// Where the robot starts, and what is kept of where it was.
+Table startParameters() {
+  return {
       {"set_initial_pose", false, 0, 0, "whether initial_pose counts", Kind::kLive},
       {"always_reset_initial_pose", false, 0, 0,
        "whether initial_pose counts more than where the robot was last", Kind::kLive},
@@ -96,14 +108,24 @@ std::vector<AmclParameters::Description> table() {
       {"initialize_at_saved_pose", false, 0, 0, "whether the belief of that file counts",
        Kind::kFixed},
       {"freespace_downsampling", false, 0, 0, kSearch, Kind::kNone},
-      {"random_seed", none, -1, kMost, "seed of random numbers", Kind::kFixed},
-      // the node
+      {"random_seed", std::int64_t{-1}, -1, kMost, "seed of random numbers", Kind::kFixed},
+  };
+}
+
+/// The node itself.
+Table nodeParameters() {
+  return {
       {"autostart_node", true, 0, 0, "whether it works without a lifecycle manager", Kind::kFixed},
       {"bond_heartbeat_period", 0.1, 0, 100, "of the lifecycle manager's bond [s]", Kind::kFixed},
       {"use_sim_time", false, 0, 0, kStamps, Kind::kNone},
       {"introspection_mode", Text("disabled"), 0, 0, kRos, Kind::kNone},
       {"start_type_description_service", true, 0, 0, kRos, Kind::kNone},
-      // Beluga's
+  };
+}
+
+/// Beluga's own.
+Table belugaParameters() {
+  return {
       {"initial_pose_topic", Text("initialpose"), 0, 0, kBeluga, Kind::kNone},
       {"selective_resampling", false, 0, 0, kResampling, Kind::kNone},
       {"spatial_resolution_x", 0.5, 0, kMost, kBeluga, Kind::kNone},
@@ -117,6 +139,14 @@ std::vector<AmclParameters::Description> table() {
       {"initial_pose.covariance_xyaw", 0.0, -kMost, kMost, kBeluga, Kind::kNone},
       {"initial_pose.covariance_yyaw", 0.0, -kMost, kMost, kBeluga, Kind::kNone},
   };
+}
+
+Table table() {
+  Table all;
+  for (const auto part : {framesParameters, motionParameters, scansParameters, startParameters,
+                          nodeParameters, belugaParameters})
+    for (auto& one : part()) all.push_back(std::move(one));
+  return all;
 }
 
 bool isOmni(const std::string& model) { return model.find("mni") != model.npos; }
