@@ -1,10 +1,13 @@
 // Occupancy grids. The first byte says of which format the rest is: 'p' PNG with mended checksums,
 // 'r' any image as it is, 'c' CARMEN map, 'z' a packed one, 'y' map_server YAML, 'm' such a YAML up
 // to the first line "---", then its image.
+#include <cmath>
+
 #include "BoundedFile.hpp"
 #include "Fuzz.hpp"
 #include "GridMap.hpp"
 #include "MapImage.hpp"
+#include "MapServerCells.hpp"
 #include "MendedFiles.hpp"
 
 namespace {
@@ -16,15 +19,36 @@ std::size_t cellsOf(int columns, int rows) {
 }
 
 void decode(const std::string& bytes) {
-  const MapImage image = decodeImage("image", bytes);
+  MapServerCells cells;
+  const MapImage image = decodeImage("image", bytes, [&](const MapPixel& pixel) {
+    fuzz::require(pixel.colours <= 3 * MapPixel::kFull && pixel.alpha <= MapPixel::kFull);
+    for (const auto mode : {MapServerCells::Mode::kTrinary, MapServerCells::Mode::kScale,
+                            MapServerCells::Mode::kRaw}) {
+      cells.mode = mode;
+      const int occupancy = cells.occupancyOf(pixel);
+      fuzz::require(occupancy >= -1 && occupancy <= 100);
+    }
+    return std::uint8_t{1};
+  });
   const std::size_t n = cellsOf(image.width, image.height);
-  fuzz::require(n > 0 && image.grey.size() == n);
-  fuzz::require(image.opaque.empty() || image.opaque.size() == n);
+  fuzz::require(n > 0 && image.meanings == std::vector<std::uint8_t>(n, 1));
+}
+
+/// What lies straight and what lies in the field are one to one.
+void checkPlaces(const GridMap& map) {
+  constexpr double kFarthest = 1e4;  // [m]
+  const Box2 box = map.bounds();
+  for (const double edge : {box.xLow, box.xHigh, box.yLow, box.yHigh})
+    fuzz::require(std::abs(edge) <= kFarthest);
+  const Point2 corner{map.originX + map.columns * map.cell, map.originY + map.rows * map.cell};
+  const Point2 again = map.toGrid(map.toField(corner));
+  fuzz::require(std::hypot(again.x - corner.x, again.y - corner.y) < 1e-6);
 }
 
 void readMap(const std::string& name) {
   GridMap map = readGridMap(fuzz::folder() / name);
   fuzz::require(!map.cells.empty() && map.cells.size() == cellsOf(map.columns, map.rows));
+  checkPlaces(map);
   if (map.cells.size() > 10'000) return;
   markUnknownNearFree(map, 2.0 * map.cell);
   distanceToOccupied(map);

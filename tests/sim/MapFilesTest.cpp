@@ -132,8 +132,8 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal("image: [", image), "is not the YAML");
   EXPECT_HAS(refusal("just text", image), "expected keys and values");
   EXPECT_HAS(refusal("image: map.pgm\norigin: [0, 0, 0]\n", image), "has no resolution");
-  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0.5]"), image), "yaw of origin is 0.5");
-  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 0.5]"), image), "map.yaml:3");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 2e4]"), image), "yaw of origin is 2e4, expected");
+  EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0, 2e4]"), image), "map.yaml:3");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 0]"), image), "origin must be [x, y, yaw]");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, .nan, 0]"), image), "y of origin is .nan");
   EXPECT_HAS(refusal(mapYaml("map.pgm", "[0, 9999.9, 0]"), image), "beyond 10 km");
@@ -147,7 +147,8 @@ TEST_F(MapFiles, BrokenYamlIsRefusedWithItsPlace) {
                            ": dark\n",
                        image),
                std::string(key) + " is dark, expected");
-  EXPECT_HAS(refusal(mapYaml() + "mode: raw\n", image), "mode is \"raw\"");
+  EXPECT_HAS(refusal(mapYaml() + "mode: grey\n", image),
+             "mode is \"grey\", expected trinary, scale or raw");
   EXPECT_HAS(refusal("image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 2\n", image),
              "negate must be 0 or 1");
   EXPECT_HAS(
@@ -177,7 +178,8 @@ TEST_F(MapFiles, NumbersOfAYamlHaveLimits) {
   EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[-10001, 0, 0]"), image), "x of origin is -10001, ");
   EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[10001, 0, 0]"), image), "x of origin is 10001, ");
   EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[0, 10001, 0]"), image), "y of origin is 10001, ");
-  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[0, 0, 2e-9]"), image), "yaw of origin is 0.0000");
+  EXPECT_EQ(refusal(yaml("1", "0", "0.5", "[0, 0, 1e4]"), image), "");
+  EXPECT_HAS(refusal(yaml("1", "0", "0.5", "[0, 0, 10001]"), image), "yaw of origin is 10001");
 }
 
 TEST_F(MapFiles, MissingAndOddFilesAreRefused) {
@@ -196,7 +198,7 @@ TEST_F(MapFiles, BrokenImagesAreRefused) {
              "ends after 11 bytes of pixels, expected 12");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 65536\nabcd"), "white is 65536");
   EXPECT_HAS(refusal(mapYaml(), "P5 2 1 0\nab"), "white is 0");
-  EXPECT_HAS(refusal(mapYaml(), "P2 1 1 255\n0\n"), "not a known kind of image");
+  EXPECT_HAS(refusal(mapYaml(), "P4 1 1\n0"), "not a known kind of image");
   const std::string png = pngOf(2, 2, 1, {254, 0, 205, 254});
   EXPECT_HAS(refusal(mapYaml(), png.substr(0, png.size() / 2)), "cannot be decoded");
   folder.write("torn.pgm.gz", packed<io::gzip_compressor>(image).substr(0, 20));

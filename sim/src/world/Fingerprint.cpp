@@ -67,6 +67,7 @@ std::string describe(const GridBody& body) {
   Line line("grid");
   line.add(body.map.columns).add(body.map.rows).add(body.map.cell);
   line.add(body.map.originX).add(body.map.originY).add(body.zLow).add(body.zHigh);
+  if (body.map.isTurned()) line.add("turned").add(body.map.yaw);
   if (body.surfaceDepth > 0.0) line.add(body.surfaceDepth);
   if (body.mapError > 0.0) line.add("error").add(body.mapError);
   return line.add(hex(cells.hash())).text();

@@ -97,9 +97,10 @@ bool FreeSpace::isFreeOfGrids(double x, double y, const RobotSize& size) const {
   bool known = false;
   for (const Grid& grid : grids_) {
     if (!isMetBy(*grid.body, size.height)) continue;
-    if (touches(grid, x, y, size.radius)) return false;
+    const Point2 at = grid.body->map.toGrid({x, y});
+    if (touches(grid, at.x, at.y, size.radius)) return false;
     isAny = true;
-    known = known || isKnown(grid, x, y);
+    known = known || isKnown(grid, at.x, at.y);
   }
   return known || !isAny;
 }

@@ -27,6 +27,7 @@ class FreeSpace {
     /// Distance to the nearest occupied cell, centre to centre [cells].
     std::vector<float> toOccupied;
   };
+  // Places of the map that lies straight.
   static bool isKnown(const Grid& grid, double x, double y);
   static bool touches(const Grid& grid, double x, double y, double radius);
   bool isFreeOfGrids(double x, double y, const RobotSize& size) const;

@@ -15,7 +15,18 @@ struct Spread {
   int sourceColumn, sourceRow;  ///< the free cell from which it was reached
 };
 
+/// Refuses what lies too far away.
+void checkBox(const std::filesystem::path& file, const Box2& box) {
+  const bool isNear = box.xLow >= -kFarthest && box.yLow >= -kFarthest && box.xHigh <= kFarthest &&
+                      box.yHigh <= kFarthest;
+  if (!isNear) throw MapError(file.string() + ": the map reaches beyond 10 km from the origin");
+}
+
 }  // namespace
+
+void checkPlace(const std::filesystem::path& file, const GridMap& map) {
+  checkBox(file, map.bounds());
+}
 
 void checkGrid(const std::filesystem::path& file, double columns, double rows, double cell,
                double originX, double originY) {
@@ -25,9 +36,7 @@ void checkGrid(const std::filesystem::path& file, double columns, double rows, d
            std::to_string(static_cast<long long>(rows)) + " cells, expected 1 to 2^26 in all");
   if (!(cell >= 0.001 && cell <= 100.0))
     refuse("the resolution is " + std::to_string(cell) + " m, expected 0.001 to 100");
-  const bool inside = std::abs(originX) <= kFarthest && std::abs(originY) <= kFarthest &&
-                      originX + columns * cell <= kFarthest && originY + rows * cell <= kFarthest;
-  if (!inside) refuse("the map reaches beyond 10 km from the origin");
+  checkBox(file, {originX, originX + columns * cell, originY, originY + rows * cell});
 }
 
 void markUnknownNearFree(GridMap& map, double margin) {

@@ -6,6 +6,7 @@
 #include "BoundedFile.hpp"
 #include "GridMap.hpp"
 #include "MapImage.hpp"
+#include "MapServerCells.hpp"
 
 namespace ortung {
 namespace {
@@ -19,9 +20,8 @@ struct MapDescription {
   double resolution = 0.0;  ///< edge length of a cell [m]
   double originX = 0.0;     ///< x of the lower left corner [m]
   double originY = 0.0;     ///< y of the lower left corner [m]
-  bool negate = false;
-  double occupiedAbove = 0.65;
-  double freeBelow = 0.196;
+  double yaw = 0.0;         ///< by which the map is turned about that corner [rad]
+  MapServerCells cells;
 };
 
 class YamlMap {
@@ -38,14 +38,14 @@ class YamlMap {
     map.image = text("image");
     map.resolution = number(need("resolution"), "resolution", 0.001, 100.0);
     readOrigin(map);
-    map.negate = flag("negate");
+    MapServerCells& cells = map.cells;
+    cells.negate = flag("negate");
     if (has("occupied_thresh"))
-      map.occupiedAbove = number(root_["occupied_thresh"], "occupied_thresh", 0.0, 1.0);
-    if (has("free_thresh")) map.freeBelow = number(root_["free_thresh"], "free_thresh", 0.0, 1.0);
-    if (map.freeBelow > map.occupiedAbove)
+      cells.occupiedAbove = number(root_["occupied_thresh"], "occupied_thresh", 0.0, 1.0);
+    if (has("free_thresh")) cells.freeBelow = number(root_["free_thresh"], "free_thresh", 0.0, 1.0);
+    if (cells.freeBelow > cells.occupiedAbove)
       refuse(root_, "free_thresh is above occupied_thresh, expected at most as large");
-    if (has("mode") && text("mode") != "trinary" && text("mode") != "scale")
-      refuse(root_["mode"], "mode is \"" + text("mode") + "\", expected trinary or scale");
+    if (has("mode")) cells.mode = mode(text("mode"));
     return map;
   }
 
@@ -89,16 +89,21 @@ class YamlMap {
     return false;
   }
 
+  MapServerCells::Mode mode(const std::string& name) const {
+    if (name == "trinary") return MapServerCells::Mode::kTrinary;
+    if (name == "scale") return MapServerCells::Mode::kScale;
+    if (name != "raw")
+      refuse(root_["mode"], "mode is \"" + name + "\", expected trinary, scale or raw");
+    return MapServerCells::Mode::kRaw;
+  }
+
   void readOrigin(MapDescription& map) const {
     const YAML::Node origin = need("origin");
     if (!origin.IsSequence() || origin.size() != 3)
       refuse(origin, "origin must be [x, y, yaw] of the lower left corner");
     map.originX = number(origin[0], "x of origin", -1e4, 1e4);
     map.originY = number(origin[1], "y of origin", -1e4, 1e4);
-    const double yaw = number(origin[2], "yaw of origin", -1e4, 1e4);
-    if (std::abs(yaw) > 1e-9)
-      refuse(origin, "yaw of origin is " + std::to_string(yaw) +
-                         " rad; turned maps are not supported, expected 0");
+    map.yaw = number(origin[2], "yaw of origin", -1e4, 1e4);
   }
 
   std::filesystem::path file_;
@@ -127,30 +132,27 @@ std::filesystem::path findImage(const std::filesystem::path& yaml, const std::st
 
 }  // namespace
 
-// Interprets the image as map_server does: darker cells are more likely occupied (lighter ones with
-// negate); the image's bottom row is the grid's first.
 GridMap readMapServer(const std::filesystem::path& yaml) {
   const MapDescription about = describe(yaml);
   const std::filesystem::path file = findImage(yaml, about.image);
-  const MapImage image = decodeImage(file, readUnpacked(file, kMaxImageBytes));
-  checkGrid(yaml, image.width, image.height, about.resolution, about.originX, about.originY);
-
-  GridMap map{image.width, image.height, about.resolution, about.originX, about.originY, {}};
-  map.cells.resize(image.grey.size());
-  for (int row = 0; row < map.rows; ++row) {
-    for (int column = 0; column < map.columns; ++column) {
-      const std::size_t pixel = map.index(column, map.rows - 1 - row);
-      const double light = image.grey[pixel] / 255.0;
-      const double occupied = about.negate ? light : 1.0 - light;
-      GridCell cell = GridCell::kUnknown;
-      if (occupied > about.occupiedAbove)
-        cell = GridCell::kOccupied;
-      else if (occupied < about.freeBelow)
-        cell = GridCell::kFree;
-      if (!image.opaque.empty() && image.opaque[pixel] == 0) cell = GridCell::kUnknown;
-      map.cells[map.index(column, row)] = cell;
-    }
-  }
+  const MapImage image =
+      decodeImage(file, readUnpacked(file, kMaxImageBytes), [&](const MapPixel& pixel) {
+        return static_cast<std::uint8_t>(cellOf(about.cells.occupancyOf(pixel)));
+      });
+  GridMap map;
+  map.columns = image.width;
+  map.rows = image.height;
+  map.cell = about.resolution;
+  map.originX = about.originX;
+  map.originY = about.originY;
+  map.turnTo(about.yaw);
+  checkGrid(yaml, map.columns, map.rows, map.cell, 0.0, 0.0);
+  checkPlace(yaml, map);
+  map.cells.resize(image.meanings.size());
+  for (int row = 0; row < map.rows; ++row)  // the image's bottom row is the grid's first
+    for (int column = 0; column < map.columns; ++column)
+      map.cells[map.index(column, row)] =
+          static_cast<GridCell>(image.meanings[map.index(column, map.rows - 1 - row)]);
   return map;
 }
 

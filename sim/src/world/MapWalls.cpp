@@ -145,7 +145,11 @@ void addMapWalls(const GridBody& body, std::vector<FieldWall>& walls) {
     return lengthOf(a) > lengthOf(b);
   });
   if (found.size() > kMostWalls) found.resize(kMostWalls);
-  walls.insert(walls.end(), found.begin(), found.end());
+  for (const FieldWall& wall : found) {
+    const Point2 from = body.map.toField({wall.x0, wall.y0});
+    const Point2 to = body.map.toField({wall.x1, wall.y1});
+    walls.push_back({from.x, from.y, to.x, to.y, wall.zLow, wall.zHigh, wall.ofGoal});
+  }
 }
 
 }  // namespace ortung

@@ -81,7 +81,9 @@ void addCaps(const GridBody& body, Builder& builder) {
     const double x1 = map.originX + to * map.cell;
     const double y0 = map.originY + low * map.cell;
     const double y1 = map.originY + high * map.cell;
-    builder.addCaps({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, body.zLow, body.zHigh);
+    const auto corner = [&](double x, double y) { return map.toField({x, y}); };
+    builder.addCaps({corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)}, body.zLow,
+                    body.zHigh);
   };
   std::vector<int> begun(static_cast<std::size_t>(map.columns), -1);
   std::vector<int> end(begun.size(),
@@ -113,7 +115,7 @@ void forOutline(const GridBody& body,
                 const std::function<void(const Point2&, const Point2&)>& found) {
   const GridMap& map = body.map;
   const auto corner = [&](int column, int row) {
-    return Point2{map.originX + column * map.cell, map.originY + row * map.cell};
+    return map.toField({map.originX + column * map.cell, map.originY + row * map.cell});
   };
   for (int c = 0; c <= map.columns; ++c)
     forRuns(

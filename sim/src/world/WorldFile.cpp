@@ -140,11 +140,7 @@ class Extent {
 Extent extentOf(const WorldModel& world) {
   Extent extent;
   for (const Primitive& primitive : world.primitives) extent.add(boundsOf(primitive));
-  for (const GridBody& body : world.grids) {
-    const GridMap& map = body.map;
-    extent.add({map.originX, map.originX + map.columns * map.cell, map.originY,
-                map.originY + map.rows * map.cell});
-  }
+  for (const GridBody& body : world.grids) extent.add(body.map.bounds());
   for (const Landmark& mark : world.landmarks) extent.add({mark.x, mark.x, mark.y, mark.y});
   if (extent.isEmpty())
     for (const Primitive& movable : world.movables) extent.add(boundsOf(movable));
