@@ -59,8 +59,11 @@ TEST_F(MapFiles, PackedImagesAreUnpackedAndPlainPicturesOfTextAreTakenToo) {
   writeGridWorld(path("out/w.toml"), path("a.yaml"));
   EXPECT_EQ(bytes("out/w.pgm"), "P2\n1 1\n255\n7\n");
   folder_.write("m.pgm.xz", compressedXz("P6\n1 1\n255\nabc"));
+  writeGridWorld(path("out/w.toml"), path("a.yaml"));
+  EXPECT_EQ(bytes("out/w.pgm"), "P6\n1 1\n255\nabc");
+  folder_.write("m.pgm.xz", compressedXz("P1\n1 1\n0\n"));
   EXPECT_EQ(errorOfWorld("a.yaml"),
-            path("m.pgm.xz").string() + ": found no PGM or PNG image, expected one");
+            path("m.pgm.xz").string() + ": found no PGM, PPM or PNG image, expected one");
 }
 
 TEST_F(MapFiles, AYamlIsShort) {

@@ -236,7 +236,7 @@ TEST_F(ScanlogSource, SaysWhatIsWrongWithAMap) {
   folder_.write("a.yaml", "image: b.pgm\n");
   EXPECT_EQ(errorWith(""), path() + "/a.yaml: found no image 'b.pgm' beside it, expected one");
   folder_.write("b.pgm", "GIF89a");
-  EXPECT_EQ(errorWith(""), path() + "/b.pgm: found no PGM or PNG image, expected one");
+  EXPECT_EQ(errorWith(""), path() + "/b.pgm: found no PGM, PPM or PNG image, expected one");
   folder_.write("c.yaml", "resolution: 1\n");
   EXPECT_EQ(errorWith("?map=c.yaml"), path() + "/c.yaml: found no line 'image: ...', expected one");
   EXPECT_NE(errorOf(text("?map=d.yaml")).find("map found no file 'd.yaml' in " + path()),

@@ -323,7 +323,7 @@ TEST_F(BagOptions, PicturesOfOtherSizesThanTheySayAreRefused) {
         << image.width << " x " << image.height;
 }
 
-TEST_F(BagOptions, MapsLieStraightAndAreComplete) {
+TEST_F(BagOptions, MapsLieOnTheFloorAndAreComplete) {
   OccupancyGrid map;
   map.resolution = 0.5F;
   map.width = 2;
@@ -331,12 +331,20 @@ TEST_F(BagOptions, MapsLieStraightAndAreComplete) {
   map.data = {0, 100};
   EXPECT_EQ(complaint("/map", map), "found no reading, expected at least one");
   const auto refused = [&](const OccupancyGrid& wrong) {
-    return complaint("/map", wrong).find("expected a value a cell, not turned") !=
+    return complaint("/map", wrong).find("expected a value a cell, lying on the floor") !=
            std::string::npos;
   };
   OccupancyGrid turned = map;
   turned.origin.orientation = {0, 0, 0.1, 1};
-  EXPECT_TRUE(refused(turned));
+  EXPECT_EQ(complaint("/map", turned), "found no reading, expected at least one");
+  for (const Quaternion& q : {Quaternion{0.1, 0, 0, 1},
+                              {0, 0.1, 0.5, 1},
+                              {1, 0, 0, 0},
+                              {0, 0, 0, 0},
+                              {0, 0, std::nan(""), 1}}) {
+    turned.origin.orientation = q;
+    EXPECT_TRUE(refused(turned)) << q.x << " " << q.y << " " << q.z << " " << q.w;
+  }
   OccupancyGrid fine = map;
   fine.resolution = 0.0F;
   EXPECT_TRUE(refused(fine));
@@ -361,8 +369,11 @@ TEST_F(BagOptions, OfSeveralMapsTheFirstOrTheNamedOneBecomesTheWorld) {
   map.data = {65};
   OccupancyGrid other = map;
   other.data = {26};
+  OccupancyGrid beyond = map;
+  beyond.data = {101};
   BagMaker maker;
   maker.add("/odom", odometryAt(0, 0, 0)).add("/map", map).add("/local", other);
+  maker.add("/beyond", beyond);
   const std::string bag = write(maker);
   const auto cellOf = [&](const std::string& options) {
     makeSource(bag + options)->writeWorld(folder_.path() / "w.toml");
@@ -370,10 +381,11 @@ TEST_F(BagOptions, OfSeveralMapsTheFirstOrTheNamedOneBecomesTheWorld) {
   };
   EXPECT_EQ(cellOf(""), 0) << "65 and more are occupied";
   EXPECT_EQ(cellOf("?map=/local"), 205) << "26 to 64 are unknown";
+  EXPECT_EQ(cellOf("?map=/beyond"), 205) << "more than 100 % are unknown";
   EXPECT_EQ(errorOf([&] { cellOf("?map=/none"); }),
             path() +
                 ": found no message at the topic '/none' that the option map names, expected "
-                "one with nav_msgs/msg/OccupancyGrid: '/local', '/map'");
+                "one with nav_msgs/msg/OccupancyGrid: '/beyond', '/local', '/map'");
 }
 
 TEST_F(BagOptions, MessagesThatAreCutOffNameTheirTopic) {

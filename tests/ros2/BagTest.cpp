@@ -155,6 +155,14 @@ TEST_F(BagSource, MapsBecomeWorlds) {
   EXPECT_EQ(image, "P5\n3 2\n255\n\xFE\xCD\x00\xFE\x00\xCD"s);  // the top row first
   const std::string yaml = readBytes(folder_.path() / "w.yaml");
   EXPECT_NE(yaml.find("resolution: 0.05\norigin: [-1.0, 2.0, 0]\n"), yaml.npos) << yaml;
+  map.origin.orientation = {0.0, 0.0, std::sin(0.3), std::cos(0.3)};
+  BagMaker turned;
+  turned.add("/map", map).add("/odom", odometryAt(0, 0, 0));
+  makeSource(write(turned))->writeWorld(folder_.path() / "w.toml");
+  EXPECT_EQ(readBytes(folder_.path() / "w.pgm"), image);
+  const std::string text = readBytes(folder_.path() / "w.yaml");
+  const std::string start = "origin: [-1.0, 2.0, ";
+  EXPECT_NEAR(std::stod(text.substr(text.find(start) + start.size())), 0.6, 1e-12) << text;
   map.data.pop_back();
   BagMaker torn;
   torn.add("/map", map);

@@ -5,7 +5,7 @@
 //   odom STAMP_NS X Y THETA V W
 //   scan STAMP_NS FRAME ANGLE_MIN STEP RANGE_MAX COUNT RANGE...
 //   initial X Y THETA
-//   map FILE.pgm RESOLUTION X Y      as map_server does with black, white and grey
+//   map FILE.pgm RESOLUTION X Y YAW      as map_server does with black, white and grey
 //   sample scan ...                  what `ready` says meanwhile
 //   ready                            goes on once everybody is there
 // It prints "said STAMP_NS AT" of odometry, "matched SECONDS" once all it needs is there, "node
@@ -141,9 +141,9 @@ static int hear(const Heard* heard) {
 static void say_map(dds_entity_t maps, const char* line) {
   char file[1024];
   float resolution;
-  double x, y;
+  double x, y, yaw;
   unsigned width, height;
-  if (sscanf(line, "map %1023s %f %lf %lf", file, &resolution, &x, &y) != 4)
+  if (sscanf(line, "map %1023s %f %lf %lf %lf", file, &resolution, &x, &y, &yaw) != 5)
     fprintf(stderr, "bad map\n"), exit(1);
   FILE* picture = fopen(file, "rb");
   if (picture == NULL || fscanf(picture, "P5 %u %u 255", &width, &height) != 2 ||
@@ -151,7 +151,8 @@ static void say_map(dds_entity_t maps, const char* line) {
     fprintf(stderr, "cyclone_peer: %s is no picture\n", file), exit(1);
   nav_msgs_msg_dds__OccupancyGrid_ m = {.header = {{1, 0}, "map"}};
   m.info.resolution = resolution, m.info.width = width, m.info.height = height;
-  m.info.origin.position.x = x, m.info.origin.position.y = y, m.info.origin.orientation.w = 1.0;
+  m.info.origin.position.x = x, m.info.origin.position.y = y;
+  m.info.origin.orientation.z = sin(0.5 * yaw), m.info.origin.orientation.w = cos(0.5 * yaw);
   m.data._length = m.data._maximum = width * height;
   m.data._buffer = malloc(width * height);
   for (unsigned row = height; row-- > 0;)

@@ -96,7 +96,7 @@ def main():
         picture = bytearray(base.with_suffix(".pgm").read_bytes())
         picture[-1] = 0 if picture[-1] else 205
         (folder / "other.pgm").write_bytes(picture)  # one cell is another
-        maps = ["map %s %s %s %s" % (file, yaml["resolution"], x, y) for file in (base.with_suffix(".pgm"), folder / "other.pgm")]
+        maps = ["map %s %s %s %s 0" % (file, yaml["resolution"], x, y) for file in (base.with_suffix(".pgm"), folder / "other.pgm")]
         half = len(lines) // 2
         told = [maps[0], lines[0], "sample " + first, "ready", *lines[1:half], maps[1], *lines[half:]]
         heard, said = live(folder, ["--folder", folder / "cache"], told, asked=[
@@ -105,6 +105,13 @@ def main():
         expect("particles = 5000" in (folder / "cache" / "robot.toml").read_text(), "a parameter that was set while it ran")
         expect(said[0].count("localizing") == 1 and said[0].count("another map") == 1, "a map that replaces another: %s" % said[0])
         check(heard, expected, lines, said, 0.1, asked=1)
+        # A map that is turned about its lower left corner: so are the poses.
+        x, y, yaw = float(x), float(y), 0.65
+        told = ["map %s %s %r %r %r" % (base.with_suffix(".pgm"), yaml["resolution"], x, y, yaw), lines[0], "sample " + first, "ready", *lines[1:]]
+        turned = [[us, x + math.cos(yaw) * (px - x) - math.sin(yaw) * (py - y), y + math.sin(yaw) * (px - x) + math.cos(yaw) * (py - y), theta + yaw]
+                  for us, px, py, theta in expected]
+        heard, said = live(folder, ["--folder", folder / "turned"], told)
+        check(heard, turned, lines, said, 0.2)  # cells of tables lie elsewhere in the map
 
 
 def set_count(name, count):

@@ -36,7 +36,9 @@ std::string imageName(const std::string& line) {
 }
 
 bool isImage(const std::string& bytes) {
-  return bytes.starts_with("P5") || bytes.starts_with("P2") || bytes.starts_with("\x89PNG");
+  for (const char* kind : {"P2", "P3", "P5", "P6", "\x89PNG"})
+    if (bytes.starts_with(kind)) return true;
+  return false;
 }
 
 std::filesystem::path beside(const std::filesystem::path& world, const std::string& ending) {
@@ -94,7 +96,7 @@ void copyMapServer(const std::filesystem::path& world, const std::filesystem::pa
   }
   const std::string bytes = readLogBytes(image, kMaxImageBytes);
   if (!isImage(bytes)) {
-    throw std::runtime_error(image.string() + ": found no PGM or PNG image, expected one");
+    throw std::runtime_error(image.string() + ": found no PGM, PPM or PNG image, expected one");
   }
   writeFile(copy, bytes);
   writeFile(beside(world, ".yaml"), text);

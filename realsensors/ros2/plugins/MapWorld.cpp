@@ -11,21 +11,32 @@
 #include "ortung/ros2/RobotTopics.hpp"
 
 namespace ortung::ros2 {
+namespace {
+
+/// Returns how much the normal of the floor is turned away from upright, as a cosine.
+double uprightness(const Quaternion& q) {
+  const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  return 1.0 - 2.0 * (q.x * q.x + q.y * q.y) / length;
+}
+
+}  // namespace
+
 std::string whyNoWorld(const OccupancyGrid& map) {
   const Pose2 origin = toPose2(map.origin);
-  constexpr double kLevel = 1e-6;  // [rad]
+  constexpr double kLevel = 0.9998;  // cosine of some degree
   const bool isGrid = map.resolution > 0.0F && map.resolution <= 100.0F && isPlausible(origin) &&
                       map.width > 0 && map.height > 0 &&
                       map.data.size() / map.width == map.height && map.data.size() % map.width == 0;
-  if (isGrid && std::abs(origin.theta) <= kLevel) return "";
+  if (isGrid && uprightness(map.origin.orientation) >= kLevel) return "";
   return "found a map of " + std::to_string(map.width) + " x " + std::to_string(map.height) +
          " cells of " + std::to_string(map.resolution) + " m with " +
          std::to_string(map.data.size()) + " values, turned by " + std::to_string(origin.theta) +
-         " rad, expected a value a cell, not turned";
+         " rad, expected a value a cell, lying on the floor";
 }
 
 void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
   constexpr int kOccupiedFrom = 65;  // as map_server's own map_saver has it
+  constexpr int kOccupiedTo = 100;
   constexpr int kFreeTo = 25;
   constexpr char kOccupied = 0;
   constexpr char kUnknown = static_cast<char>(205);
@@ -34,12 +45,14 @@ void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
       "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
   for (std::size_t row = map.height; row-- > 0;) {
     for (std::size_t column = 0; column < map.width; ++column) {
-      const std::int8_t value = map.data[row * map.width + column];
-      picture += value >= kOccupiedFrom           ? kOccupied
-                 : value >= 0 && value <= kFreeTo ? kFree
-                                                  : kUnknown;
+      const int value = map.data[row * map.width + column];
+      const bool isKnown = value >= 0 && value <= kOccupiedTo;
+      picture += isKnown && value >= kOccupiedFrom ? kOccupied
+                 : isKnown && value <= kFreeTo     ? kFree
+                                                   : kUnknown;
     }
   }
+  const double yaw = toPose2(map.origin).theta;
   std::filesystem::path image = file;
   image.replace_extension(".pgm");
   std::filesystem::path yaml = file;
@@ -48,7 +61,8 @@ void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
   writeFile(yaml, "image: " + image.filename().string() + "\nresolution: " +
                       tomlNumber(plain(static_cast<double>(map.resolution))) + "\norigin: [" +
                       tomlNumber(map.origin.position.x) + ", " + tomlNumber(map.origin.position.y) +
-                      ", 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+                      ", " + (yaw == 0.0 ? "0" : tomlNumber(yaw)) +
+                      "]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
   writeFile(file, "[world]\nname = " + tomlText(file.stem().string()) + "\n\n" +
                       gridToml(yaml.filename().string()));
 }
