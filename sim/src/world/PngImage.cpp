@@ -15,7 +15,7 @@ namespace {
 /// The greatest number of bytes to which one deflated byte expands.
 constexpr std::size_t kMostPacked = 1032;
 /// The most memory for all pixels of an image whose rows are interlaced [bytes].
-constexpr std::size_t kMostInterlaced = std::size_t{1} << 28;
+constexpr std::size_t kMostInterlaced = std::size_t{1} << 27;
 
 /// The data that the decoder's callbacks see.
 struct Input {
@@ -143,7 +143,7 @@ bool readPixels(const std::filesystem::path& file, Decoder& decoder, const Pixel
   const std::size_t size = decoder.rowBytes() * atOnce;
   if (atOnce > 1 && size > kMostInterlaced)
     throw MapError(file.string() + ": has interlaced pixels of " + std::to_string(size) +
-                   " bytes, expected 2^28 at most; save it without interlacing");
+                   " bytes, expected 2^27 at most; save it without interlacing");
   std::vector<png_byte> pixels(size);
   std::vector<png_bytep> rows(atOnce);
   for (std::size_t i = 0; i < atOnce; ++i) rows[i] = pixels.data() + i * decoder.rowBytes();
