@@ -16,6 +16,7 @@ namespace {
 /// Returns how much the normal of the floor is turned away from upright, as a cosine.
 double uprightness(const Quaternion& q) {
   const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (length == 0.0) return 1.0;  // some leave out the rotation
   return 1.0 - 2.0 * (q.x * q.x + q.y * q.y) / length;
 }
 
