@@ -154,6 +154,43 @@ TEST(MessageLayout, OfRangeAndImage) {
   EXPECT_EQ(toCdr(image), picture.bytes());
 }
 
+TEST(MessageLayout, OfImu) {
+  Imu imu;
+  imu.header = {kStamp, "imu"};
+  imu.orientation = {1, 2, 3, 4};
+  imu.orientationCovariance[8] = 0.5;
+  imu.angular = {5, 6, 7};
+  imu.angularCovariance[0] = -1;
+  imu.acceleration = {8, 9, 10};
+  imu.accelerationCovariance[1] = 0.25;
+  Layout layout;
+  layout.header("imu").f64({1, 2, 3, 4}).zeros(8).f64({0.5, 5, 6, 7, -1}).zeros(8);
+  layout.f64({8, 9, 10, 0, 0.25}).zeros(7);
+  EXPECT_EQ(toCdr(imu), layout.bytes());
+}
+
+// The second message has the memory of the first one, and nothing else of it.
+TEST(MessageLayout, AMessageMayBeReadIntoOneThatIsThere) {
+  PointCloud cloud;
+  cloud.header = {kStamp, "a frame that is long enough to need memory"};
+  cloud.fields = {{"x", 0, PointCloud::Field::kFloat, 1}, {"n", 4, PointCloud::Field::kWord, 1}};
+  cloud.data.resize(1000, 7);
+  PointCloud read;
+  std::string why;
+  ASSERT_TRUE(fromCdr(toCdr(cloud), read, why)) << why;
+  const std::uint8_t* memory = read.data.data();
+  EXPECT_EQ(read.data, cloud.data);
+  EXPECT_EQ(read.header.frame, cloud.header.frame);
+  cloud.data.assign(999, 8);
+  cloud.fields.pop_back();
+  ASSERT_TRUE(fromCdr(toCdr(cloud), read, why)) << why;
+  EXPECT_EQ(read.data, cloud.data);
+  EXPECT_EQ(read.data.data(), memory);
+  EXPECT_EQ(read.fields.size(), 1u);
+  EXPECT_FALSE(fromCdr(toCdr(cloud).substr(0, 50), read, why));
+  EXPECT_NE(why, "");
+}
+
 TEST(MessageLayout, OfPointCloudAndWords) {
   PointCloud cloud;
   cloud.header = {kStamp, "radar"};

@@ -144,6 +144,17 @@ void fields(A& a, Is<DiagnosticArray> auto& m) {
 }
 
 template <class A>
+void fields(A& a, Is<Imu> auto& m) {
+  a(m.header);
+  a(m.orientation);
+  a(m.orientationCovariance);
+  a(m.angular);
+  a(m.angularCovariance);
+  a(m.acceleration);
+  a(m.accelerationCovariance);
+}
+
+template <class A>
 void fields(A& a, Is<PointCloud::Field> auto& m) {
   a(m.name);
   a(m.offset);

@@ -31,6 +31,14 @@ std::optional<M> fromCdr(std::string_view bytes, std::string& why) {
 }
 
 template <class M>
+bool fromCdr(std::string_view bytes, M& message, std::string& why) {
+  CdrReader reader(bytes);
+  reader(message);
+  why = reader.why();
+  return why.empty();
+}
+
+template <class M>
 std::optional<M> fromRos1(std::string_view bytes, std::string& why) {
   return readWith<M>(Ros1Reader(bytes), why);
 }
@@ -38,6 +46,7 @@ std::optional<M> fromRos1(std::string_view bytes, std::string& why) {
 #define ORTUNG_ROS2_MESSAGE(M)                                                  \
   template ORTUNG_API std::string toCdr(const M&);                              \
   template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&); \
+  template ORTUNG_API bool fromCdr(std::string_view, M&, std::string&);         \
   template ORTUNG_API std::optional<M> fromRos1(std::string_view, std::string&);
 ORTUNG_ROS2_MESSAGE(LaserScan)
 ORTUNG_ROS2_MESSAGE(Odometry)
@@ -49,6 +58,7 @@ ORTUNG_ROS2_MESSAGE(ParticleCloud)
 ORTUNG_ROS2_MESSAGE(OccupancyGrid)
 ORTUNG_ROS2_MESSAGE(Range)
 ORTUNG_ROS2_MESSAGE(Image)
+ORTUNG_ROS2_MESSAGE(Imu)
 ORTUNG_ROS2_MESSAGE(PointCloud)
 ORTUNG_ROS2_MESSAGE(DiagnosticArray)
 ORTUNG_ROS2_MESSAGE(Words)

@@ -136,12 +136,26 @@ struct Image {
   std::vector<std::uint8_t> data;
 };
 
-/// Points, each of the same fields. Those that are here have one row of them.
+/// How a part of a robot is turned and how it moves, by an inertial unit.
+struct Imu {
+  static constexpr std::string_view kType = "sensor_msgs/msg/Imu";
+  using Covariance3 = std::array<double, 9>;  ///< row-major; its first number is -1: no such value
+  Header header;
+  Quaternion orientation;  ///< of the unit, in a frame whose z axis points up (REP 145)
+  Covariance3 orientationCovariance{};   ///< [rad^2]
+  Vector3 angular;                       ///< angular velocity in the unit's frame [rad/s]
+  Covariance3 angularCovariance{};       ///< [rad^2/s^2]
+  Vector3 acceleration;                  ///< with that of gravity, in the unit's frame [m/s^2]
+  Covariance3 accelerationCovariance{};  ///< [m^2/s^4]
+};
+
+/// Points, each of the same fields, in rows.
 struct PointCloud {
   static constexpr std::string_view kType = "sensor_msgs/msg/PointCloud2";
   struct Field {
-    static constexpr std::uint8_t kWord = 6;   ///< 32 bits without a sign
-    static constexpr std::uint8_t kFloat = 7;  ///< 32 bits
+    static constexpr std::uint8_t kWord = 6;    ///< 32 bits without a sign
+    static constexpr std::uint8_t kFloat = 7;   ///< 32 bits
+    static constexpr std::uint8_t kDouble = 8;  ///< 64 bits
     std::string name;
     std::uint32_t offset = 0;  ///< in a point [bytes]
     std::uint8_t type = kFloat;
@@ -198,6 +212,11 @@ ORTUNG_API std::string toCdr(const M& message);
 /// @return the message, or nothing
 template <class M>
 ORTUNG_API std::optional<M> fromCdr(std::string_view bytes, std::string& why);
+
+/// Decodes CDR as above into a message that is there, whose memory it uses again.
+/// @return whether it is such a message; if not, its content is anything
+template <class M>
+ORTUNG_API bool fromCdr(std::string_view bytes, M& message, std::string& why);
 
 /// Decodes the same message as ROS 1 serializes it, from untrusted bytes: little endian without
 /// alignment. Frames lose the slash at their beginning. Bytes behind the message are ignored.
