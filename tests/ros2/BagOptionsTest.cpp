@@ -140,7 +140,7 @@ TEST_F(BagOptions, MountsAreTakenAsTheyAreTold) {
   const std::string toml = makeSource(bag + "?mounts=l:0.5,0.25,-90;r:2:0,-1,30")->robotToml();
   EXPECT_NE(toml.find("x_m = 0.5, y_m = 0.25, theta_deg = -90.0"), toml.npos) << toml;
   EXPECT_NE(toml.find("x_m = 0.0, y_m = -1.0, theta_deg = 30.0"), toml.npos) << toml;
-  for (const char* mounts : {"l", "l:1,2", "l:1,2,3,4", "l:1,2,x", "l:0,0,0;;r:0,0,0"})
+  for (const char* mounts : {"l", "l:1,2", "l:1,2,3,4,5", "l:1,2,x", "l:0,0,0;;r:0,0,0"})
     EXPECT_NE(errorOf(bag + "?mounts=" + mounts).find("must be FRAME:x,y,theta in m and degrees"),
               std::string::npos)
         << mounts;

@@ -7,6 +7,7 @@
 
 #include "../src/Compression.hpp"
 #include "BagFolder.hpp"
+#include "BagTopics.hpp"
 #include "MapWorld.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/formats/FormatNames.hpp"
@@ -21,9 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostKept = 1U << 30;  // bytes of readings
-constexpr std::size_t kMostTopics = 1024;
 constexpr std::size_t kMostRemarks = 32;
-constexpr std::string_view kRos1Encoding = "ros1";
 
 std::optional<std::vector<std::string>> listOption(const Parameters& options, const char* key) {
   if (!options.has(key)) return std::nullopt;
@@ -38,11 +37,6 @@ bool isWanted(const std::optional<std::vector<std::string>>& list, const std::st
   return !list || std::find(list->begin(), list->end(), topic) != list->end();
 }
 
-std::string featureOf(const McapChannel& channel) {
-  const auto found = channel.metadata.find("ortung_feature");
-  return found == channel.metadata.end() ? "" : found->second;
-}
-
 /// Whether a range was made of a format of a plugin's own, whose words are in a channel beside it.
 bool isOfWords(const McapChannel& channel) {
   const auto format = channel.metadata.find("format");
@@ -50,45 +44,7 @@ bool isOfWords(const McapChannel& channel) {
   return format->second.substr(0, format->second.find(' ')) != formats::kCone;
 }
 
-/// Returns the name that ROS 2 has for the type of a channel's messages, which ROS 1 calls
-/// otherwise.
-std::string typeOf(const McapChannel& channel) {
-  const std::string& name = channel.schema.name;
-  const std::size_t slash = name.find('/');
-  if (channel.encoding != kRos1Encoding || slash == name.npos) return name;
-  if (name == "tf/tfMessage") return std::string(TfMessage::kType);
-  return name.find('/', slash + 1) != name.npos
-             ? name
-             : name.substr(0, slash) + "/msg" + name.substr(slash);
-}
-
 constexpr const char* kNoPlace = "have a place that is no number or beyond 1000 km";
-
-/// Returns names for an error: "'/scan', '/top'".
-std::string listOf(const std::set<std::string>& names) {
-  constexpr std::size_t kMost = 32;
-  std::string text;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (++count > kMost) return text + " and " + std::to_string(names.size() - kMost) + " more";
-    text += (text.empty() ? "" : ", ") + inQuotes(name);
-  }
-  return text.empty() ? "there is none" : text;
-}
-
-template <class List>
-auto& ofTopic(List& list, const McapChannel& channel, const std::string& where) {
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const auto& one) { return one.topic == channel.topic; });
-  if (found != list.end()) return *found;
-  if (list.size() >= kMostTopics)
-    throw std::runtime_error(where + ": found more than " + std::to_string(kMostTopics) +
-                             " topics of one type, expected fewer");
-  auto& one = list.emplace_back();
-  one.topic = channel.topic;
-  one.feature = featureOf(channel);
-  return one;
-}
 
 }  // namespace
 
@@ -102,14 +58,19 @@ BagChoice BagChoice::read(const Parameters& options) {
   choice.map = options.textOr("map", "");
   choice.base = options.textOr("base", "");
   choice.usesLogTime = options.choiceOr("stamps", "header", {"header", "log"}) == "log";
+  choice.clouds = listOption(options, "clouds");
+  choice.level = options.textOr("level", "odometry");
   return choice;
 }
 
 Bag::Bag(const fs::path& path, const BagChoice& choice) : choice_(choice) {
-  for (const fs::path& file : bagFiles(path, remarks)) readFile(file);
+  const std::vector<fs::path> files = bagFiles(path, remarks);
+  for (const fs::path& file : files) readFile(file);
   file_ = path.string();
   checkChoice();
   choose();
+  readClouds(files);
+  file_ = path.string();
   tellTimes();
   for (const auto& [what, count] : unfit_)
     remarks.push_back(std::to_string(count) + " messages of " + what);
@@ -132,6 +93,8 @@ void Bag::take(const McapMessage& message, const std::string& type) {
     if (isWanted(choice_.scans, topic)) takeScan(message);
   } else if (type == Range::kType) {
     if (isWanted(choice_.ranges, topic) && !isOfWords(*message.channel)) takeRange(message);
+  } else if (type == Imu::kType) {
+    if (topic == choice_.level) takeImu(message);
   } else if (type == Image::kType) {
     if (choice_.images ? isWanted(choice_.images, topic) : isOurs) takeImage(message);
   } else if (type == Odometry::kType) {
@@ -165,6 +128,9 @@ std::optional<M> Bag::decode(const McapMessage& message) {
   if (!decoded) refuse(message, why + ", expected a " + std::string(M::kType));
   return decoded;
 }
+
+template std::optional<Imu> Bag::decode(const McapMessage&);
+template std::optional<PointCloud> Bag::decode(const McapMessage&);
 
 /// Unpacks a message, as rosbag2 compresses them one by one.
 std::string Bag::unpacked(std::string_view packed, const McapMessage& message) {
@@ -332,8 +298,9 @@ void Bag::takeOdometry(const McapMessage& message) {
   Track& track = ofTopic(odometries_, *message.channel, file_);
   if (odometryFrames_.size() < odometries_.size()) odometryFrames_.push_back(odom.childFrame);
   keep(sizeof(Moving));
-  track.list.push_back(
-      {stampOf(odom.header, message), pose, odom.linear.x, odom.linear.y, odom.angular.z});
+  const Timestamp stamp = stampOf(odom.header, message);
+  track.list.push_back({stamp, pose, odom.linear.x, odom.linear.y, odom.angular.z});
+  track.tilts.add(stamp, odom.pose.orientation);
 }
 
 void Bag::takeTransforms(const McapMessage& message) {
@@ -346,7 +313,8 @@ void Bag::takeTransforms(const McapMessage& message) {
     isWhole = isWhole && isUsed;
     if (isStatic || !isUsed) continue;
     keep(sizeof(TimedTransform));
-    moving_.push_back({timeOf(one.header, message), one.header.frame, one.childFrame, pose});
+    moving_.push_back({timeOf(one.header, message), one.header.frame, one.childFrame, pose,
+                       one.transform.orientation});
   }
   if (!isWhole) leaveOut(message, "have transforms that are no numbers or beyond 1000 km");
 }
@@ -412,6 +380,8 @@ void Bag::checkChoice() const {
   needAll("scans", choice_.scans, LaserScan::kType);
   needAll("ranges", choice_.ranges, Range::kType);
   needAll("images", choice_.images, Image::kType);
+  needAll("clouds", choice_.clouds, PointCloud::kType);
+  if (isLevelledByTopic(choice_.level)) needTopic("level", choice_.level, {Imu::kType});
   if (!choice_.odometry.empty() && choice_.odometry != "tf")
     needTopic("odometry", choice_.odometry, {Odometry::kType});
   if (!choice_.truth.empty() && choice_.truth != "tf" && choice_.truth != "none")
@@ -468,6 +438,7 @@ void Bag::followFrames() {
       if (odometry.topic.empty() || odometry.topic == "/tf") {
         odometry.topic = "/tf";
         odometry.list.push_back({inOrder("/tf to the robot", one.stamp), one.pose});
+        odometry.tilts.add(one.stamp, one.attitude);
       }
       if (choice_.truth == "tf" && odometryInMap)
         truth.list.push_back({one.stamp, *odometryInMap * one.pose});

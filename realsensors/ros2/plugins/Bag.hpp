@@ -11,8 +11,12 @@
 #include <vector>
 
 #include "BagFile.hpp"
+#include "CloudBands.hpp"
+#include "CloudShape.hpp"
 #include "FrameTree.hpp"
 #include "ScanShape.hpp"
+#include "TiltHistory.hpp"
+#include "VelocityHistory.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
@@ -29,6 +33,10 @@ struct BagChoice {
   std::string map;           ///< topic of the map; "": the first one
   std::string base;          ///< frame of the robot; "": the odometry's
   bool usesLogTime = false;  ///< whether stamps are times of recording
+  std::optional<std::vector<std::string>> clouds;  ///< topics; nothing: all, if there are no scans
+  CloudBands bands;                                ///< what is taken of them
+  std::string level = "odometry";  ///< what levels them: a topic of Imu, "odometry" or "none"
+  std::map<std::string, Eigen::Isometry3d> mounts;  ///< poses of frames in that of the robot
   static BagChoice read(const Parameters& options);
 };
 
@@ -45,6 +53,11 @@ class Bag {
     std::optional<ScanShape> shape;
     std::vector<Scan> list;
     std::size_t others = 0;  ///< number of scans that did not fit, and were left out
+  };
+  struct Clouds {
+    std::string topic, feature;
+    std::optional<CloudShape> shape;  ///< nothing: it is not known where the lidar sits
+    std::vector<Scan> list;
   };
   struct Reading {
     Timestamp stamp;
@@ -63,6 +76,7 @@ class Bag {
   struct Track {
     std::string topic, feature;
     std::vector<Moving> list;
+    TiltHistory tilts = TiltHistory();  ///< of odometry
   };
   struct Picture {
     Timestamp stamp;
@@ -81,6 +95,7 @@ class Bag {
   Bag(const std::filesystem::path& path, const BagChoice& choice);
 
   std::vector<Scans> scans;
+  std::vector<Clouds> clouds;
   std::vector<Ranges> ranges;
   std::vector<Pictures> pictures;
   Track odometry, truth;
@@ -111,6 +126,15 @@ class Bag {
   void takePose(const McapMessage& message);
   void takeMap(const McapMessage& message);
   void takeWords(const McapMessage& message);
+  void takeImu(const McapMessage& message);
+  std::set<std::string> wantedClouds() const;
+  void readClouds(const std::vector<std::filesystem::path>& files);
+  void learnMotion();
+  void findImu();
+  void takeCloud(const McapMessage& message);
+  std::optional<CloudShape> shapeOf(const McapMessage& message, const std::string& frame);
+  Eigen::Matrix3d tiltAt(Timestamp stamp);
+  std::optional<Eigen::Isometry3d> mountOf(const std::string& frame) const;
   void addOwn(const McapMessage& message, Timestamp stamp, std::vector<std::uint32_t> words);
   Timestamp logTime(const McapMessage& message) const;
   bool isTruth(const McapMessage& message) const;
@@ -137,6 +161,7 @@ class Bag {
     Timestamp stamp;
     std::string parent, child;
     Pose2 pose;
+    Quaternion attitude;
   };
   BagChoice choice_;
   std::string file_;
@@ -149,6 +174,11 @@ class Bag {
   std::map<std::string, Times> times_;        ///< times by topic
   std::map<std::string, std::set<std::string>, std::less<>> topics_;  ///< topics by type
   std::set<std::string> sensorFrames_;                                ///< frames of sensors
+  // What clouds are made to scans with, after all else was read.
+  TiltHistory imu_;
+  std::string imuFrame_;
+  Eigen::Matrix3d imuInBase_ = Eigen::Matrix3d::Identity();
+  VelocityHistory velocities_;
 };
 
 }  // namespace ortung::ros2

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -36,19 +37,42 @@ std::string cleaned(const std::string& topic) {
   return name.empty() ? "topic" : name.substr(0, kLongest);
 }
 
-/// A bag of ROS 2 (MCAP, .db3) or ROS 1 (.bag): laser scans, odometry, ranges, poses, and the
-/// mounts of the sensors.
+CloudBands bandsOf(const Parameters& options, std::optional<double> maxRange) {
+  CloudBands bands;
+  const double beams = optionNumber(options, "cloud_beams", 360, {8, 8192});
+  if (beams != std::floor(beams)) options.fail("cloud_beams", "must be a whole number");
+  bands.each.beams = static_cast<int>(beams);
+  if (maxRange) bands.each.maxRange = *maxRange;
+  const double leastRange = std::min(bands.each.minRange, bands.each.maxRange / 2);
+  bands.each.minRange = optionNumber(options, "cloud_min_range_m", leastRange, {0.01, 100});
+  try {
+    bands.takeHeights(options.textOr("band", ""));
+  } catch (const std::invalid_argument& error) {
+    options.fail("band", error.what());
+  }
+  try {
+    bands.check();
+  } catch (const std::invalid_argument& error) {
+    options.fail("band", std::string("and the ranges of clouds: ") + error.what());
+  }
+  return bands;
+}
+
+/// A bag of ROS 2 (MCAP, .db3) or ROS 1 (.bag): laser scans, clouds of lidars, odometry, ranges,
+/// poses, and the mounts of the sensors.
 class McapSource : public LogSource {
  public:
   explicit McapSource(const Parameters& options)
       : path_(options.text("path")), maxRange_(optionNumber(options, "max_range_m", {0.1, 1000})) {
     options.textOr("robot_file", "");
-    const BagChoice choice = BagChoice::read(options);
-    readMounts(options);
+    BagChoice choice = BagChoice::read(options);
+    readMounts(options, choice.mounts);
+    choice.bands = bandsOf(options, maxRange_);
     Bag bag(path_, choice);
     checkMounts(bag);
     if (!bag.odometry.list.empty()) addOdometry(bag);
     for (const Bag::Scans& scans : bag.scans) addScans(bag, scans);
+    for (const Bag::Clouds& clouds : bag.clouds) addClouds(bag, clouds);
     for (const Bag::Ranges& ranges : bag.ranges) addRanges(bag, ranges);
     for (const Bag::Pictures& pictures : bag.pictures) addPictures(pictures);
     if (!bag.truth.list.empty()) addTruth(bag.truth);
@@ -70,10 +94,11 @@ class McapSource : public LogSource {
   void writeWorld(const std::filesystem::path& file) const override;
 
  private:
-  void readMounts(const Parameters& options);
+  void readMounts(const Parameters& options, std::map<std::string, Eigen::Isometry3d>& inSpace);
   void checkMounts(const Bag& bag) const;
   void addOdometry(const Bag& bag);
   void addScans(const Bag& bag, const Bag::Scans& scans);
+  void addClouds(const Bag& bag, const Bag::Clouds& clouds);
   void addRanges(const Bag& bag, const Bag::Ranges& ranges);
   void addPictures(const Bag::Pictures& pictures);
   void addTruth(const Bag::Track& truth);
@@ -95,24 +120,32 @@ class McapSource : public LogSource {
   std::optional<OccupancyGrid> map_;
 };
 
-void McapSource::readMounts(const Parameters& options) {
+/// Reads the mounts of sensors. @param inSpace out: those of lidars, which may be tilted
+void McapSource::readMounts(const Parameters& options,
+                            std::map<std::string, Eigen::Isometry3d>& inSpace) {
   std::string rest = options.textOr("mounts", "");
   while (!rest.empty()) {
     const std::string one = rest.substr(0, rest.find(';'));
     rest.erase(0, one.size() + 1);
     const std::size_t colon = one.rfind(':');
-    const auto numbers =
+    auto numbers =
         colon == one.npos ? std::nullopt : parseNumbers(std::string_view(one).substr(colon + 1));
-    const bool isNear = numbers && numbers->size() == 3 && std::abs((*numbers)[0]) <= kFarMount &&
-                        std::abs((*numbers)[1]) <= kFarMount;
-    if (numbers && numbers->size() == 3 && !isNear)
-      options.fail("mounts", "has '" + one + "', must be within 10 m of the robot's origin");
-    if (!isNear)
+    const bool isMount =
+        numbers && (numbers->size() == 3 || numbers->size() == 4 || numbers->size() == 6);
+    if (!isMount)
       options.fail("mounts", "has '" + one +
                                  "', must be FRAME:x,y,theta in m and degrees, and ';' "
-                                 "between two");
-    mounts_[one.substr(0, colon)] = {(*numbers)[0], (*numbers)[1],
-                                     wrapAngle(radians((*numbers)[2]))};
+                                 "between two; of lidars with z, or with z,roll,pitch behind");
+    numbers->resize(6, 0.0);
+    const auto [x, y, theta, z, roll, pitch] = std::array<double, 6>{
+        (*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3], (*numbers)[4], (*numbers)[5]};
+    if (!(std::abs(x) <= kFarMount && std::abs(y) <= kFarMount && std::abs(z) <= kFarMount))
+      options.fail("mounts", "has '" + one + "', must be within 10 m of the robot's origin");
+    mounts_[one.substr(0, colon)] = {x, y, wrapAngle(radians(theta))};
+    inSpace[one.substr(0, colon)] = Eigen::Translation3d(x, y, z) *
+                                    Eigen::AngleAxisd(radians(theta), Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(radians(pitch), Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(radians(roll), Eigen::Vector3d::UnitX());
   }
 }
 
@@ -208,6 +241,22 @@ void McapSource::addScans(const Bag& bag, const Bag::Scans& scans) {
   sensors_ += scannerToml(scanner, std::clamp(medianPeriod(stamps), 0.001, 3600.0), id);
 }
 
+void McapSource::addClouds(const Bag& bag, const Bag::Clouds& clouds) {
+  if (clouds.list.empty()) return;
+  const bool isOnly = bag.clouds.size() == 1;
+  const SensorId id = idFor("", {isOnly ? "lidar" : cleaned(clouds.topic), "LRF", "scan"});
+  const auto feature = addFeature(id);
+  const Scanner scanner = clouds.shape->scanner();
+  std::vector<Timestamp> stamps;
+  std::vector<std::uint32_t> words;
+  for (const Bag::Scan& scan : clouds.list) {
+    ScanData::encode(scan.ranges, *scanner.maxRange, words);
+    add(feature, scan.stamp, words);
+    stamps.push_back(scan.stamp);
+  }
+  sensors_ += scannerToml(scanner, std::clamp(medianPeriod(stamps), 0.001, 3600.0), id);
+}
+
 void McapSource::addRanges(const Bag& bag, const Bag::Ranges& ranges) {
   SensorId id = idFor(ranges.feature, {"sonar", "ultrasonic", cleaned(ranges.topic) + "_0"});
   const auto feature = addFeature(id);
@@ -264,6 +313,16 @@ class McapHelp : public SourceHelp {
       : SourceHelp(
             "bag of ROS 2 (MCAP, .db3, also compressed), its folder, or a .bag of ROS 1",
             {{"scans", "", "all", "topics of sensor_msgs/LaserScan, with commas between them"},
+             {"clouds", "", "all, if there are no scans",
+              "topics of sensor_msgs/PointCloud2, of lidars that become scanners"},
+             {"band", "m", "0.2,1.8",
+              "heights above the robot's frame in which their points count: LOW,HIGH or "
+              "TOPIC:LOW,HIGH, and ';' between two"},
+             {"cloud_beams", "", "360", "beams of such a scanner, all around"},
+             {"cloud_min_range_m", "m", "0.5", "points that are nearer are the robot itself"},
+             {"level", "", "odometry",
+              "what tells the robot's roll and pitch for clouds: a topic of sensor_msgs/Imu, "
+              "odometry (its poses in space), or none"},
              {"ranges", "", "all", "topics of sensor_msgs/Range"},
              {"images", "", "none", "topics of sensor_msgs/Image (rgb8, bgr8, mono8)"},
              {"odometry", "", "the first",
@@ -274,7 +333,9 @@ class McapHelp : public SourceHelp {
              {"map", "", "the first", "topic of nav_msgs/OccupancyGrid, for --world"},
              {"base", "", "that of odometry", "frame of the robot"},
              {"mounts", "x,y,theta in m and degrees", "those at /tf_static",
-              "mounts of sensors: FRAME:x,y,theta, and ';' between two"},
+              "mounts of sensors: FRAME:x,y,theta, of lidars FRAME:x,y,theta,z or with ,roll,pitch "
+              "behind, "
+              "and ';' between two"},
              {"max_range_m", "m", "the scan's, or 30",
               "ranges from here on mean that nothing was seen"},
              {"stamps", "", "header", "header: times of measurement; log: of recording"}}) {}
