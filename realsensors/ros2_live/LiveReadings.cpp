@@ -31,7 +31,14 @@ Timestamp stampOf(const Header& header) {
 LiveReadings::LiveReadings(Options options)
     : options_(std::move(options)),
       shapes_(options_.scanners.size()),
-      areUpsideDown_(options_.scanners.size()) {}
+      areUpsideDown_(options_.scanners.size()),
+      tilts_(kMostWaiting),
+      velocities_(kMostWaiting) {
+  for (const Lidar& lidar : options_.lidars) {
+    lidar.band.check();
+    clouds_.push_back(std::make_unique<Cloud>());
+  }
+}
 
 void LiveReadings::leaveOut(const std::string& what) {
   if (leftOut_.size() < kMostReasons || leftOut_.contains(what)) ++leftOut_[what];
@@ -48,6 +55,8 @@ void LiveReadings::put(Message message, std::optional<Pose2> inOdometry) {
     lastPose_.reset();
     newestScan_.reset();
     newestOdometry_.reset();
+    tilts_ = TiltHistory(kMostWaiting);
+    velocities_ = VelocityHistory(kMostWaiting);
   }
   late_ = 0;
   if (waiting_.size() >= kMostWaiting && !waiting_.contains(message.stamp))
@@ -87,11 +96,71 @@ void LiveReadings::takeScan(std::size_t scanner, std::string_view cdr) {
   ScanData::encode(ranges, wanted.maxRange, reading.words);
   if (shape->isClockwise() != areUpsideDown_[scanner])
     std::reverse(reading.words.begin(), reading.words.end());
+  putScan(std::move(reading), wanted.topic);
+}
+
+void LiveReadings::putScan(Message reading, const std::string& topic) {
   if (newestOdometry_ && reading.stamp > *newestOdometry_ + kMostAhead)
-    return leaveOut(wanted.topic + ": more than 1 s ahead of odometry");
+    return leaveOut(topic + ": more than 1 s ahead of odometry");
   newestScan_ = std::max(newestScan_.value_or(reading.stamp), reading.stamp);
   put(std::move(reading), std::nullopt);
   arrived_.notify_all();
+}
+
+/// Makes a scan of a cloud, while others may take what arrives: it has megabytes.
+void LiveReadings::takeCloud(std::size_t lidar, std::string_view cdr) {
+  const Lidar& wanted = options_.lidars.at(lidar);
+  Cloud& own = *clouds_.at(lidar);
+  const std::lock_guard oneByOne(own.mutex);
+  std::string why;
+  const bool isCloud = fromCdr(cdr, own.message, why);
+  const Timestamp stamp = stampOf(own.message.header);
+  Eigen::Matrix3d tilt;
+  PlanarVelocity velocity;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!isCloud) return leaveOut(wanted.topic + ": no cloud: " + why);
+    if (!own.shape) {
+      const auto mount = frames_.find(own.message.header.frame, options_.base);
+      if (!mount) return leaveOut(wanted.topic + ": no transform tells where the lidar sits");
+      own.shape.emplace(wanted.band, *mount);
+    }
+    tilt = tiltAt(stamp);
+    velocity = velocities_.at(stamp);
+  }
+  const auto ranges = own.shape->fit(own.message, tilt, velocity, why);
+  const std::lock_guard lock(mutex_);
+  if (ranges.empty()) return leaveOut(wanted.topic + ": " + why);
+  Message reading{stamp, wanted.feature, {}};
+  ScanData::encode(ranges, wanted.band.maxRange, reading.words);
+  putScan(std::move(reading), wanted.topic);
+}
+
+/// Returns how the robot leans, as far as it is told.
+Eigen::Matrix3d LiveReadings::tiltAt(Timestamp stamp) {
+  Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+  if (!imuFrame_.empty()) {
+    const auto mount = frames_.find(imuFrame_, options_.base);
+    if (mount)
+      unit = mount->linear();
+    else
+      leaveOut(options_.level + ": how it is mounted, which no transform tells");
+  }
+  const auto tilt = tilts_.at(stamp, unit);
+  if (!tilt && options_.level != "none" && options_.level != "odometry")
+    leaveOut(options_.level + ": no attitude of a cloud's time");
+  return tilt.value_or(Eigen::Matrix3d::Identity());
+}
+
+void LiveReadings::takeImu(std::string_view cdr) {
+  std::string why;
+  const auto imu = fromCdr<Imu>(cdr, why);
+  const std::lock_guard lock(mutex_);
+  if (!imu) return leaveOut(options_.level + ": no message: " + why);
+  if (imu->orientationCovariance[0] < 0.0 ||  // which says that there is none
+      !tilts_.add(stampOf(imu->header), imu->orientation))
+    return leaveOut(options_.level + ": no orientation");
+  imuFrame_ = imu->header.frame;
 }
 
 void LiveReadings::addOdometry(Timestamp stamp, const Pose2& pose,
@@ -114,7 +183,10 @@ void LiveReadings::takeOdometry(std::string_view cdr) {
   for (const double velocity : {forward, left, turn})
     if (!(std::abs(velocity) <= kMaxLogVelocity))
       return leaveOut("odometry: a velocity that is no number, or above 100 m/s or rad/s");
-  addOdometry(stampOf(moved->header), pose, OdometryData::encode({pose, forward, turn, {}, left}));
+  const Timestamp stamp = stampOf(moved->header);
+  velocities_.add(stamp, {forward, left, turn});
+  if (options_.level == "odometry") tilts_.add(stamp, moved->pose.orientation);
+  addOdometry(stamp, pose, OdometryData::encode({pose, forward, turn, {}, left}));
 }
 
 void LiveReadings::takeTransforms(std::string_view cdr, bool isStatic) {
@@ -141,6 +213,8 @@ void LiveReadings::takeTransforms(std::string_view cdr, bool isStatic) {
       leaveOut("transforms: odometry that is not newer");
       continue;
     }
+    velocities_.addPose(stamp, pose);
+    if (options_.level == "odometry") tilts_.add(stamp, one.transform.orientation);
     addOdometry(stamp, pose, followed_.words(stamp, pose));
   }
 }

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -11,8 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "CloudShape.hpp"
 #include "FrameTree.hpp"
 #include "ScanShape.hpp"
+#include "TiltHistory.hpp"
+#include "VelocityHistory.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
@@ -34,8 +38,18 @@ class LiveReadings {
     std::size_t beams = 0;
     double maxRange = 0.0;  ///< [m]
   };
+  /// A lidar whose clouds become scans, which see all around.
+  struct Lidar {
+    std::string topic;
+    SensorId feature;
+    CloudBand band;
+  };
   struct Options {
     std::vector<Scanner> scanners;
+    std::vector<Lidar> lidars;
+    /// What tells roll and pitch, by which clouds are levelled: a topic of sensor_msgs/Imu,
+    /// "odometry" or "none".
+    std::string level = "odometry";
     SensorId odometry;
     bool followsFrames = false;  ///< whether odometry is the transform odom -> base, not a message
     std::string base = "base_footprint", odom = "odom";  ///< frames
@@ -51,6 +65,8 @@ class LiveReadings {
 
   // What arrives, as bytes (CDR).
   void takeScan(std::size_t scanner, std::string_view cdr);
+  void takeCloud(std::size_t lidar, std::string_view cdr);
+  void takeImu(std::string_view cdr);
   void takeOdometry(std::string_view cdr);
   void takeTransforms(std::string_view cdr, bool isStatic);
 
@@ -75,9 +91,17 @@ class LiveReadings {
     std::optional<Pose2> inOdometry;
     Clock::time_point since;
   };
+  /// What is used again for each cloud of a lidar.
+  struct Cloud {
+    std::mutex mutex;
+    PointCloud message;
+    std::optional<CloudShape> shape;
+  };
   void put(Message message, std::optional<Pose2> inOdometry);
+  void putScan(Message reading, const std::string& topic);
   void leaveOut(const std::string& what);
   void addOdometry(Timestamp stamp, const Pose2& pose, std::vector<std::uint32_t> words);
+  Eigen::Matrix3d tiltAt(Timestamp stamp);
   bool isReady(Clock::time_point now) const;
   std::optional<Pose2> interpolated(Timestamp stamp) const;
 
@@ -93,6 +117,10 @@ class LiveReadings {
   std::size_t late_ = 0;  ///< messages in a row
   std::vector<std::optional<ScanShape>> shapes_;
   std::vector<bool> areUpsideDown_;
+  std::vector<std::unique_ptr<Cloud>> clouds_;  ///< by lidar; each with a lock of its own
+  TiltHistory tilts_;
+  VelocityHistory velocities_;
+  std::string imuFrame_;
   FrameTree frames_;
   PoseOdometry followed_;
   std::map<std::string, std::uint64_t> leftOut_;

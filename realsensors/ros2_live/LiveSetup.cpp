@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "CloudLayout.hpp"
+#include "CloudShape.hpp"
 #include "MapWorld.hpp"
 #include "ScanShape.hpp"
 #include "ortung/base/NewFile.hpp"
@@ -31,7 +33,9 @@ std::string cleaned(const std::string& topic) {
 }  // namespace
 
 LiveSetup::LiveSetup(Options options, Participant& node)
-    : options_(std::move(options)), scans_(options_.scans.size()) {
+    : options_(std::move(options)),
+      scans_(options_.scans.size()),
+      cloudFrames_(options_.clouds.size()) {
   node.subscribe(options_.map, OccupancyGrid::kType, Qos::kLatched,
                  [this](std::string_view cdr) { takeMap(cdr); });
   node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
@@ -39,6 +43,9 @@ LiveSetup::LiveSetup(Options options, Participant& node)
   for (std::size_t i = 0; i < options_.scans.size(); ++i)
     node.subscribe(options_.scans[i], LaserScan::kType, Qos::kSensor,
                    [this, i](std::string_view cdr) { takeScan(i, cdr); });
+  for (std::size_t i = 0; i < options_.clouds.size(); ++i)
+    node.subscribe(options_.clouds[i], PointCloud::kType, Qos::kSensor,
+                   [this, i](std::string_view cdr) { takeCloud(i, cdr); });
 }
 
 std::string LiveSetup::featureOf(const std::string& topic) { return cleaned(topic) + "/LRF/scan"; }
@@ -81,6 +88,21 @@ void LiveSetup::takeScan(std::size_t scanner, std::string_view cdr) {
   arrived_.notify_all();
 }
 
+/// Takes the frame of a lidar, from the first cloud that is sound.
+void LiveSetup::takeCloud(std::size_t lidar, std::string_view cdr) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (cloudFrames_[lidar]) return;
+  }
+  std::string why;
+  const auto cloud = fromCdr<PointCloud>(cdr, why);
+  const bool isSound = cloud && CloudLayout::of(*cloud, why);
+  const std::lock_guard lock(mutex_);
+  if (!isSound) return complain(options_.clouds[lidar] + ": " + why);
+  cloudFrames_[lidar] = cloud->header.frame;
+  arrived_.notify_all();
+}
+
 void LiveSetup::takeFrames(std::string_view cdr) {
   std::string why;
   const auto all = fromCdr<TfMessage>(cdr, why);
@@ -91,14 +113,19 @@ void LiveSetup::takeFrames(std::string_view cdr) {
 }
 
 bool LiveSetup::knowsScanners() const {
-  return std::all_of(scans_.begin(), scans_.end(),
-                     [](const auto& scan) { return scan.has_value(); });
+  const auto isThere = [](const auto& one) { return one.has_value(); };
+  return std::all_of(scans_.begin(), scans_.end(), isThere) &&
+         std::all_of(cloudFrames_.begin(), cloudFrames_.end(), isThere);
 }
 
 bool LiveSetup::knowsMounts() const {
-  return std::all_of(scans_.begin(), scans_.end(), [&](const auto& scan) {
-    return frames_.find(scan->header.frame, options_.base).has_value();
-  });
+  const auto isKnown = [&](const std::string& frame) {
+    return frames_.find(frame, options_.base).has_value();
+  };
+  return std::all_of(scans_.begin(), scans_.end(),
+                     [&](const auto& scan) { return isKnown(scan->header.frame); }) &&
+         std::all_of(cloudFrames_.begin(), cloudFrames_.end(),
+                     [&](const auto& frame) { return isKnown(*frame); });
 }
 
 bool LiveSetup::wait(const std::function<bool()>& goOn, const std::function<bool()>& isThere) {
@@ -137,6 +164,23 @@ void LiveSetup::writeWorld(const std::filesystem::path& file) {
   writeWorldOf(*map, file);
 }
 
+/// Returns the tables of the lidars, whose heights above the floor have to be known.
+std::string LiveSetup::cloudsToml() const {
+  std::string text;
+  for (std::size_t i = 0; i < cloudFrames_.size(); ++i) {
+    const std::string& topic = options_.clouds[i];
+    const auto mount = frames_.find(*cloudFrames_[i], options_.base);
+    if (!mount)
+      throw std::runtime_error(topic + ": found no transform from " + options_.base + " to " +
+                               inQuotes(*cloudFrames_[i]) +
+                               ", expected it at /tf_static: it tells how high the lidar sits");
+    constexpr double kPeriod = 0.1;  // of most lidars [s]
+    text += scannerToml(CloudShape(options_.bands.of(topic), *mount).scanner(), kPeriod,
+                        parseSensorId(featureOf(topic)));
+  }
+  return text;
+}
+
 void LiveSetup::writeRobot(const std::filesystem::path& file, const std::string& more) const {
   const std::lock_guard lock(mutex_);
   std::string text = robotHead(file.stem().string());
@@ -154,7 +198,7 @@ void LiveSetup::writeRobot(const std::filesystem::path& file, const std::string&
     text += scannerToml(scanner, period >= 0.001 && period <= 10.0 ? period : 0.1,
                         parseSensorId(featureOf(options_.scans[i])));
   }
-  writeFile(file, text + more);
+  writeFile(file, text + cloudsToml() + more);
 }
 
 std::vector<std::string> LiveSetup::complaints() {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "CloudBands.hpp"
 #include "FrameTree.hpp"
 #include "Participant.hpp"
 #include "ortung/ros2/Messages.hpp"
@@ -21,7 +22,9 @@ namespace ortung::ros2 {
 class LiveSetup {
  public:
   struct Options {
-    std::vector<std::string> scans;  ///< topics
+    std::vector<std::string> scans;   ///< topics
+    std::vector<std::string> clouds;  ///< topics of lidars
+    CloudBands bands;                 ///< what is taken of their clouds
     std::string base = "base_footprint";
     std::string map = "map";  ///< topic of the map
     double maxRange = 0.0;    ///< scans are cut there [m]; 0: where they say
@@ -31,17 +34,19 @@ class LiveSetup {
   /// Waits for a map that was not written yet. @param goOn asked now and then
   /// @return whether there is one
   bool waitForMap(const std::function<bool()>& goOn);
-  /// Waits for a scan of each scanner, and a while for the frames in which they are.
+  /// Waits for a scan of each scanner and a cloud of each lidar, and a while for the frames in
+  /// which they are.
   bool waitForScanners(const std::function<bool()>& goOn);
   /// Whether a map has come that was not written yet.
   bool hasNewMap() const;
 
   /// Writes the newest map as a world. @throws std::runtime_error
   void writeWorld(const std::filesystem::path& file);
-  /// Writes a robot file with the scanners, whose features are the topics' names.
+  /// Writes a robot file with the scanners and lidars, whose features are the topics' names.
   /// @param more tables of the file, as TOML @throws std::runtime_error
   void writeRobot(const std::filesystem::path& file, const std::string& more = "") const;
-  /// Name of the feature that writeRobot() gives to a topic of scans, e.g. "scan/LRF/scan".
+  /// Name of the feature that writeRobot() gives to a topic of scans or clouds, e.g.
+  /// "scan/LRF/scan".
   static std::string featureOf(const std::string& topic);
 
   /// What was wrong with messages, since it was asked last.
@@ -50,6 +55,8 @@ class LiveSetup {
  private:
   void takeMap(std::string_view cdr);
   void takeScan(std::size_t scanner, std::string_view cdr);
+  void takeCloud(std::size_t lidar, std::string_view cdr);
+  std::string cloudsToml() const;
   void takeFrames(std::string_view cdr);
   bool knowsScanners() const;
   bool knowsMounts() const;
@@ -62,6 +69,7 @@ class LiveSetup {
   std::optional<OccupancyGrid> newMap_;
   std::size_t mapDigest_ = 0;  ///< of the newest map's bytes
   std::vector<std::optional<LaserScan>> scans_;
+  std::vector<std::optional<std::string>> cloudFrames_;  ///< frame of each lidar
   FrameTree frames_;
   std::vector<std::string> complaints_;
 };

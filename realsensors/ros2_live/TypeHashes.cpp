@@ -7,7 +7,7 @@ namespace ortung::ros2 {
 namespace {
 
 /// Of the messages that the node reads and tells; tests/ros2_live/type_hash_test.py computes them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kHashes = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kHashes = {{
     {"diagnostic_msgs/msg/DiagnosticArray",
      "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"},
     {"geometry_msgs/msg/PoseWithCovarianceStamped",
@@ -19,8 +19,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kHashes =
     {"nav_msgs/msg/Odometry", "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0"},
     {"rmw_dds_common/msg/ParticipantEntitiesInfo",
      "ceeef91b55abeb561ed93174430982c9df07b7e93e81a22ceebf7d95651d00a6"},
+    {"sensor_msgs/msg/Imu", "7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"},
     {"sensor_msgs/msg/LaserScan",
      "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"},
+    {"sensor_msgs/msg/PointCloud2",
+     "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
     {"tf2_msgs/msg/TFMessage", "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"},
 }};
 

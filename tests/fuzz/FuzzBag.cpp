@@ -1,6 +1,6 @@
 // A bag of ROS 2 with the input as messages of each type that is imported, by the source `mcap`:
-// the first byte has the source's options, the second how messages change; each other message is
-// introduced by a byte for its type and two for its length.
+// the first two bytes have the source's options; each message is introduced by a byte for its type
+// and how it changes, and one for its length.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -66,13 +66,36 @@ std::string sound<OccupancyGrid>(int number) {
   return toCdr(map);
 }
 
+template <>
+std::string sound<Imu>(int number) {
+  Imu imu;
+  imu.header = {number * std::int64_t{100'000'000}, "base_link"};
+  imu.orientation = {0.02, 0.01, 0, 1};
+  return toCdr(imu);
+}
+template <>
+std::string sound<PointCloud>(int number) {
+  PointCloud cloud;
+  cloud.header = {number * std::int64_t{100'000'000}, "laser"};
+  cloud.fields = {{"x", 0, PointCloud::Field::kFloat, 1},
+                  {"y", 4, PointCloud::Field::kFloat, 1},
+                  {"z", 8, PointCloud::Field::kFloat, 1},
+                  {"t", 12, PointCloud::Field::kWord, 1}};
+  cloud.pointStep = 16;
+  cloud.width = 2;
+  cloud.rowStep = 32;
+  cloud.data = {0, 0, 128, 63, 0, 0, 0, 0,  0, 0, 0, 63, 0, 0, 0,  0,   // (1, 0, 0.5)
+                0, 0, 0,   0,  0, 0, 0, 64, 0, 0, 0, 63, 0, 0, 16, 0};  // (0, 2, 0.5)
+  return toCdr(cloud);
+}
+
 struct Kind {
   std::string_view type;
   const char* topic;
   std::string (*sound)(int);
   const char* feature;
 };
-constexpr std::array<Kind, 11> kKinds{{
+constexpr std::array<Kind, 13> kKinds{{
     {LaserScan::kType, "/scan", sound<LaserScan>, ""},
     {LaserScan::kType, "/top", sound<LaserScan>, "top/LRF/scan"},
     {Odometry::kType, "/odom", sound<Odometry>, ""},
@@ -85,6 +108,8 @@ constexpr std::array<Kind, 11> kKinds{{
     {ros2::Range::kType, "/sonar", sound<ros2::Range>, ""},
     {Image::kType, "/image", sound<Image>, ""},
     {Words::kType, "/words", sound<Words>, "own/type/words"},
+    {PointCloud::kType, "/points", sound<PointCloud>, ""},
+    {Imu::kType, "/imu", sound<Imu>, ""},
 }};
 
 /// Puts bytes into a message: triples of a place and a byte.
@@ -121,18 +146,25 @@ std::string bagOf(std::string_view input) {
 
 void read(std::string_view input) {
   static PluginFactory factory({ORTUNG_PLUGINS_DIR});
-  constexpr std::array<std::pair<const char*, const char*>, 8> kOptions{{{"images", "/image"},
-                                                                         {"truth", "tf"},
-                                                                         {"odometry", "tf"},
-                                                                         {"base", "base_link"},
-                                                                         {"stamps", "log"},
-                                                                         {"scans", "/top"},
-                                                                         {"mounts", "laser:1,0,90"},
-                                                                         {"max_range_m", "5"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 14> kOptions{
+      {{"images", "/image"},
+       {"truth", "tf"},
+       {"odometry", "tf"},
+       {"base", "base_link"},
+       {"stamps", "log"},
+       {"scans", "/top"},
+       {"mounts", "laser:1,0,90"},
+       {"max_range_m", "5"},
+       {"clouds", "/points"},
+       {"level", "/imu"},
+       {"band", "-1,1"},
+       {"cloud_beams", "8"},
+       {"cloud_min_range_m", "0.01"},
+       {"level", "none"}}};
   Parameters parameters("mcap");
-  parameters.set("path", fuzz::write("run.mcap", bagOf(input.substr(1))).string());
+  parameters.set("path", fuzz::write("run.mcap", bagOf(input.substr(2))).string());
   for (std::size_t i = 0; i < kOptions.size(); ++i)
-    if ((static_cast<std::uint8_t>(input[0]) >> i & 1) != 0)
+    if ((static_cast<std::uint8_t>(input[i / 8]) >> (i % 8) & 1) != 0)
       parameters.set(kOptions[i].first, std::string(kOptions[i].second));
   const auto source = factory.make<Source>("mcap", parameters);
   Timestamp last = std::numeric_limits<Timestamp>::min();
@@ -148,7 +180,7 @@ void read(std::string_view input) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  if (size == 0) return 0;
+  if (size < 2) return 0;
   fuzz::refusedOrDone<std::runtime_error, std::invalid_argument>(
       [&] { read({reinterpret_cast<const char*>(bytes), size}); });
   return 0;

@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "BagFile.hpp"
+#include "CloudLayout.hpp"
+#include "CloudMaker.hpp"
 #include "Compression.hpp"
 #include "Fuzz.hpp"
 #include "Ros1Maker.hpp"
@@ -41,7 +43,9 @@ const std::string& soundRecords() {
     for (int i = 0; i < 3; ++i)
       maker.add("scan", "sensor_msgs/LaserScan", testing::toRos1(scan()))
           .add("/tf", "tf/tfMessage",
-               testing::toRos1(TfMessage{{{{1, "/odom"}, "/base_link", {}}}}));
+               testing::toRos1(TfMessage{{{{1, "/odom"}, "/base_link", {}}}}))
+          .add("/points", "sensor_msgs/PointCloud2",
+               testing::toRos1(testing::cloudOf({{1, 2, 3}, {4, 5, 6}})));
     return maker.records;
   }();
   return kRecords;
@@ -105,6 +109,20 @@ void decode(std::string_view bytes) {
   fuzz::require(isRead == why.empty());
 }
 
+/// What a cloud says of its bytes is read, or refused.
+void findPoints(std::string_view bytes) {
+  std::string why;
+  const auto cloud = fromRos1<PointCloud>(bytes, why);
+  if (!cloud) return;
+  const auto layout = CloudLayout::of(*cloud, why);
+  if (!layout) return;
+  std::vector<float> x(layout->columns()), y(x), z(x);
+  for (std::size_t row = 0; row < layout->rows(); ++row) {
+    layout->readPlaces(row, 0, x, y, z);
+    if (layout->hasTimes()) layout->readTimes(row, 0, x);
+  }
+}
+
 void read(std::string_view input) {
   const auto file = openBagFile(fuzz::write("run.bag", fileOf(input)));
   for (McapMessage message; file->next(message);) {
@@ -115,6 +133,8 @@ void read(std::string_view input) {
     decode<OccupancyGrid>(message.data);
     decode<Image>(message.data);
     decode<PointCloud>(message.data);
+    findPoints(message.data);
+    decode<Imu>(message.data);
     decode<DiagnosticArray>(message.data);
     decode<Words>(message.data);
   }

@@ -16,6 +16,7 @@
 namespace {
 
 using namespace ortung::ros2;
+using ortung::SensorId;
 
 /// Takes numbers from the input.
 class Input {
@@ -82,8 +83,38 @@ std::string framesOf(Input& in) {
   return toCdr(frames);
 }
 
+/// A cloud of up to 255 bytes, whose fields and sizes are mostly sound.
+std::string cloudOf(Input& in) {
+  static constexpr const char* kNames[] = {"x", "y", "z", "t", "time", "timestamp"};
+  PointCloud cloud;
+  cloud.header = headerOf(in, in.take<std::uint8_t>() != 0 ? "laser" : "odom");
+  const bool isSound = in.take<std::uint8_t>() % 4 != 0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const auto type = in.take<std::uint8_t>();
+    const char* name = i < 3 ? kNames[i] : kNames[3 + type % 3];
+    cloud.fields.push_back({name, isSound ? 4 * i : in.take<std::uint32_t>(),
+                            isSound ? PointCloud::Field::kFloat : type, 1});
+  }
+  cloud.pointStep = isSound ? 16 : in.take<std::uint32_t>();
+  cloud.isBigEndian = in.take<std::uint8_t>() % 2 == 1;
+  const std::string_view bytes = in.piece();
+  cloud.data.assign(bytes.begin(), bytes.end());
+  cloud.height = isSound ? 1 : in.take<std::uint32_t>();
+  cloud.width = isSound ? static_cast<std::uint32_t>(bytes.size() / 16) : in.take<std::uint32_t>();
+  cloud.rowStep = isSound ? cloud.width * 16 : in.take<std::uint32_t>();
+  return toCdr(cloud);
+}
+
+std::string imuOf(Input& in) {
+  Imu imu;
+  imu.header = headerOf(in, in.take<std::uint8_t>() != 0 ? "base_footprint" : "laser");
+  imu.orientation = {in.take<float>(), in.take<float>(), in.take<double>(), in.take<float>()};
+  imu.orientationCovariance[0] = in.take<float>();
+  return toCdr(imu);
+}
+
 void takeOne(Input& in, LiveReadings& readings) {
-  switch (in.take<std::uint8_t>() % 8) {
+  switch (in.take<std::uint8_t>() % 12) {
     case 0:
       return readings.takeScan(0, in.piece());
     case 1:
@@ -98,6 +129,14 @@ void takeOne(Input& in, LiveReadings& readings) {
       return readings.takeTransforms(framesOf(in), false);
     case 6:
       return readings.takeTransforms(framesOf(in), true);
+    case 8:
+      return readings.takeCloud(0, in.piece());
+    case 9:
+      return readings.takeCloud(0, cloudOf(in));
+    case 10:
+      return readings.takeImu(in.piece());
+    case 11:
+      return readings.takeImu(imuOf(in));
     default:
       return readings.takeOdometry(odometryOf(in));
   }
@@ -107,11 +146,18 @@ void takeOne(Input& in, LiveReadings& readings) {
 void takeAll(LiveReadings& readings, const ortung::ScanData::Config& scanner) {
   ortung::OdometryData odometry({"odometry", "odometry", "pose"});
   ortung::ScanData scan({"laser", "LRF", "scan"}, {}, scanner);
+  ortung::ScanData::Config around;
+  around.beams = 8;
+  around.angleStep = 0.785;
+  ortung::ScanData cloud({"lidar", "LRF", "scan"}, {}, around);
   while (const auto moment = readings.next(std::chrono::milliseconds(0))) {
     if (moment->readings.empty()) return;
     for (const ortung::Message& reading : moment->readings) {
       if (reading.stamp != moment->readings.front().stamp) std::abort();
-      reading.id.type == "LRF" ? scan.checkData(reading.words) : odometry.checkData(reading.words);
+      if (reading.id.type != "LRF")
+        odometry.checkData(reading.words);
+      else
+        (reading.id.model == "lidar" ? cloud : scan).checkData(reading.words);
     }
   }
 }
@@ -122,8 +168,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Input in({reinterpret_cast<const char*>(data), size});
   LiveReadings::Options options;
   options.scanners = {{"scan", {"laser", "LRF", "scan"}, 5, 10.0}};
+  const SensorId lidar{"lidar", "LRF", "scan"};
+  options.lidars = {{"points", lidar, {.beams = 8, .minHeight = -1.0}}};
   options.odometry = {"odometry", "odometry", "pose"};
-  options.followsFrames = in.take<std::uint8_t>() % 2 == 1;
+  const auto kind = in.take<std::uint8_t>();
+  options.followsFrames = kind % 2 == 1;
+  options.level = kind % 4 < 2 ? "odometry" : "imu";
   ortung::ScanData::Config scanner;
   scanner.beams = 5;
   scanner.angleStep = 0.1;
