@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ReadingMessages.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ProtectionData.hpp"
@@ -39,6 +40,38 @@ const SensorData* onlyOf(const SensorContainer& container, std::string_view form
   return found;
 }
 
+/// Finds the scanner of TOPIC or TOPIC=MODEL/TYPE/FEATURE. @throws std::invalid_argument
+const SensorData& scannerOf(const SensorContainer& container, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const SensorData* data = equals == text.npos
+                               ? onlyOf(container, formats::kScan, text)
+                               : container.findExactly(parseSensorId(text.substr(equals + 1)));
+  if (data == nullptr || data->format().name() != formats::kScan)
+    throw std::invalid_argument(text + ": the robot file has no scanner of that name");
+  return *data;
+}
+
+std::string topicOf(const std::string& text) { return text.substr(0, text.find('=')); }
+
+/// Returns the lidar that fills a scanner, which has to see all around as those do that are made of
+/// clouds.
+LiveReadings::Lidar lidarOf(const SensorContainer& container, const std::string& text,
+                            const CloudBands& bands) {
+  const SensorData& data = scannerOf(container, text);
+  const ScanData::Config config = ScanData::configOf(data.format());
+  LiveReadings::Lidar lidar{topicOf(text), data.id(), bands.of(topicOf(text))};
+  lidar.band.beams = config.beams;
+  lidar.band.maxRange = config.maxRange;
+  lidar.band.minRange = std::min(lidar.band.minRange, config.maxRange / 2);
+  constexpr double kRounded = 1e-6;  // [rad], of degrees in a file
+  if (std::abs(config.firstAngle + kTurn / 2) > kRounded ||
+      std::abs(config.angleStep * config.beams - kTurn) > kRounded * config.beams)
+    throw std::invalid_argument(text + ": " + toText(data.id()) +
+                                " does not see all around, expected beams from -180 degrees on, "
+                                "as those of a scanner that is made of clouds");
+  return lidar;
+}
+
 }  // namespace
 
 LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
@@ -49,16 +82,14 @@ LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
   wanted.followsFrames = options.odometry == "tf";
   wanted.odometry = onlyOf(container, formats::kOdometry, options.odometry)->id();
   for (const std::string& scan : options.scans) {
-    const std::size_t equals = scan.find('=');
-    const SensorData* data = equals == scan.npos
-                                 ? onlyOf(container, formats::kScan, scan)
-                                 : container.findExactly(parseSensorId(scan.substr(equals + 1)));
-    if (data == nullptr || data->format().name() != formats::kScan)
-      throw std::invalid_argument(scan + ": the robot file has no scanner of that name");
-    const ScanData::Config config = ScanData::configOf(data->format());
-    wanted.scanners.push_back({scan.substr(0, equals), data->id(),
-                               static_cast<std::size_t>(config.beams), config.maxRange});
+    const SensorData& data = scannerOf(container, scan);
+    const ScanData::Config config = ScanData::configOf(data.format());
+    wanted.scanners.push_back(
+        {topicOf(scan), data.id(), static_cast<std::size_t>(config.beams), config.maxRange});
   }
+  for (const std::string& cloud : options.clouds)
+    wanted.lidars.push_back(lidarOf(container, cloud, options.bands));
+  wanted.level = options.level;
   return wanted;
 }
 
@@ -141,11 +172,19 @@ void LiveLocalization::listen(Participant& node) {
       readings_.takeOdometry(cdr);
       followOdometry();
     });
-  for (std::size_t i = 0; i < options_.scans.size(); ++i) {
-    const std::string topic = options_.scans[i].substr(0, options_.scans[i].find('='));
-    node.subscribe(topic, LaserScan::kType, Qos::kSensor,
+  for (std::size_t i = 0; i < options_.scans.size(); ++i)
+    node.subscribe(topicOf(options_.scans[i]), LaserScan::kType, Qos::kSensor,
                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
-  }
+  listenForClouds(node);
+}
+
+void LiveLocalization::listenForClouds(Participant& node) {
+  for (std::size_t i = 0; i < options_.clouds.size(); ++i)
+    node.subscribe(topicOf(options_.clouds[i]), PointCloud::kType, Qos::kSensor,
+                   [this, i](std::string_view cdr) { readings_.takeCloud(i, cdr); });
+  if (!options_.clouds.empty() && options_.level != "odometry" && options_.level != "none")
+    node.subscribe(options_.level, Imu::kType, Qos::kSensor,
+                   [this](std::string_view cdr) { readings_.takeImu(cdr); });
 }
 
 void LiveLocalization::startAt(const LiveRequests::InitialPose& wanted) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "CloudBands.hpp"
 #include "LiveReadings.hpp"
 #include "LiveRequests.hpp"
 #include "MapTransform.hpp"
@@ -27,7 +28,10 @@ class LiveLocalization {
     /// Topics of scans, each with the feature it is of, as "scan=laser/LRF/scan"; without one it is
     /// the robot's only scanner.
     std::vector<std::string> scans = {"scan"};
-    std::string odometry = "odom";  ///< topic of nav_msgs/Odometry, or "tf"
+    std::vector<std::string> clouds = {};  ///< topics of lidars, likewise
+    CloudBands bands = {};                 ///< heights at which their points count
+    std::string level = "odometry";  ///< what levels them: a topic of Imu, "odometry" or "none"
+    std::string odometry = "odom";   ///< topic of nav_msgs/Odometry, or "tf"
     std::string base = "base_footprint", odom = "odom", map = "map";  ///< frames
     double transformTolerance = 1.0;  ///< how far ahead transforms are valid [s]
     bool tellsTransform = true;       ///< whether map -> odom is told
@@ -57,6 +61,7 @@ class LiveLocalization {
   void run(const std::function<bool()>& goOn);
 
  private:
+  void listenForClouds(Participant& node);
   static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container);
   void obey();
   void startAt(const LiveRequests::InitialPose& wanted);

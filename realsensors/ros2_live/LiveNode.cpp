@@ -47,6 +47,9 @@ void LiveNode::listenForMap() {
   LiveSetup::Options wanted;
   for (const std::string& scan : options_.localization.scans)
     wanted.scans.push_back(scan.substr(0, scan.find('=')));
+  for (const std::string& cloud : options_.localization.clouds)
+    wanted.clouds.push_back(cloud.substr(0, cloud.find('=')));
+  wanted.bands = options_.localization.bands;
   wanted.base = options_.localization.base;
   wanted.map = options_.map;
   wanted.maxRange = settings_.maxRange;
@@ -89,6 +92,8 @@ std::optional<std::filesystem::path> LiveNode::learn() {
     writeRobot();
     for (std::string& scan : options_.localization.scans)
       if (scan.find('=') == scan.npos) scan += "=" + LiveSetup::featureOf(scan);
+    for (std::string& cloud : options_.localization.clouds)
+      if (cloud.find('=') == cloud.npos) cloud += "=" + LiveSetup::featureOf(cloud);
   }
   missing_.clear();
   auto tables = options_.folder / ("map" + std::to_string(++learned_ % 2) + ".ortung");

@@ -43,6 +43,7 @@ struct Arguments {
   LiveNode::Options node;
   std::vector<std::filesystem::path> files;  ///< of parameters
   std::string start;                         ///< "": as parameters say
+  std::string band;                          ///< heights of clouds
   std::string distro = "humble";
 };
 
@@ -82,6 +83,16 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "Folder for what is made of the map; default: in the user's cache");
   app.add_option("--scan", options.scans,
                  "Topic of a scanner, TOPIC or TOPIC=MODEL/TYPE/FEATURE; may be given again")
+      ->capture_default_str();
+  app.add_option(
+      "--cloud", options.clouds,
+      "Topic of a lidar (PointCloud2) that becomes a scanner, as for --scan, in its place");
+  app.add_option("--band", arguments.band,
+                 "Heights above the base at which points of clouds count [m]: LOW,HIGH or "
+                 "TOPIC:LOW,HIGH, and ';' between two; default: 0.2,1.8");
+  app.add_option(
+         "--level", options.level,
+         "What tells roll and pitch, for clouds: a topic of sensor_msgs/Imu, odometry, none")
       ->capture_default_str();
   app.add_option("--odometry", options.odometry, "Topic of nav_msgs/Odometry, or tf: odom -> base")
       ->capture_default_str();
@@ -149,6 +160,18 @@ void useParameters(Arguments& arguments, const RosArguments& ros) {
                                 std::numbers::pi / 12.0};
 }
 
+/// Takes what clouds need. With clouds there are scans only where an option names them.
+void useClouds(const CLI::App& app, Arguments& arguments) {
+  LiveLocalization::Options& options = arguments.node.localization;
+  if (!options.clouds.empty() && app.count("--scan") == 0) options.scans.clear();
+  try {
+    options.bands.takeHeights(arguments.band);
+    options.bands.check();
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError("--band", error.what());
+  }
+}
+
 /// Reads all that the command line says. @throws CLI::ParseError, std::runtime_error,
 /// std::invalid_argument
 void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& words) {
@@ -168,6 +191,7 @@ void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& w
   parse();  // which counts more than they do
   if (ros.namesNode) names.node = node;
   if (arguments.node.folder.empty()) arguments.node.folder = cacheFolder();
+  useClouds(app, arguments);
   if (!arguments.start.empty())
     arguments.node.localization.localization.start = startOf(arguments.start);
   LiveNode::Options& options = arguments.node;
