@@ -114,24 +114,24 @@ void LiveReadings::takeCloud(std::size_t lidar, std::string_view cdr) {
   const std::lock_guard oneByOne(own.mutex);
   std::string why;
   const bool isCloud = fromCdr(cdr, own.message, why);
-  const Timestamp stamp = stampOf(own.message.header);
-  Eigen::Matrix3d tilt;
-  PlanarVelocity velocity;
+  const auto layout = isCloud ? CloudLayout::of(own.message, why) : std::nullopt;
+  SweepMotion motion;
   {
     const std::lock_guard lock(mutex_);
     if (!isCloud) return leaveOut(wanted.topic + ": no cloud: " + why);
+    if (!layout) return leaveOut(wanted.topic + ": " + why);
     if (!own.shape) {
       const auto mount = frames_.find(own.message.header.frame, options_.base);
       if (!mount) return leaveOut(wanted.topic + ": no transform tells where the lidar sits");
       own.shape.emplace(wanted.band, *mount);
     }
-    tilt = tiltAt(stamp);
-    velocity = velocities_.at(stamp);
+    motion = motionDuring(
+        layout->sweep(), layout->stamp(), [this](Timestamp at) { return tiltAt(at); }, velocities_);
   }
-  const auto ranges = own.shape->fit(own.message, tilt, velocity, why);
+  const auto ranges = own.shape->fit(*layout, motion, why);
   const std::lock_guard lock(mutex_);
   if (ranges.empty()) return leaveOut(wanted.topic + ": " + why);
-  Message reading{stamp, wanted.feature, {}};
+  Message reading{layout->stamp(), wanted.feature, {}};
   ScanData::encode(ranges, wanted.band.maxRange, reading.words);
   putScan(std::move(reading), wanted.topic);
 }

@@ -19,6 +19,7 @@ namespace ortung::bench {
 namespace {
 
 using ros2::CloudBand;
+using ros2::CloudLayout;
 using ros2::CloudShape;
 using ros2::PlanarVelocity;
 using ros2::PointCloud;
@@ -83,7 +84,9 @@ void measure(benchmark::State& state, const PointCloud& cloud, const PlanarVeloc
   CloudShape shape(CloudBand(), mount());
   std::string why;
   const double seconds = fastest(state, [&] {
-    if (shape.fit(cloud, tilt(), motion, why).empty()) throw std::runtime_error(why);
+    const auto layout = CloudLayout::of(cloud, why);
+    if (!layout || shape.fit(*layout, {tilt(), tilt(), motion}, why).empty())
+      throw std::runtime_error(why);
   });
   state.counters["ms"] = seconds / 1e6;
   state.counters["points/s"] = kPoints / (seconds / 1e9);
@@ -138,7 +141,9 @@ void messageWithMotion(benchmark::State& state) {
   PointCloud cloud;
   std::string why;
   const double seconds = fastest(state, [&] {
-    if (!ros2::fromCdr(bytes, cloud, why) || shape.fit(cloud, tilt(), kMotion, why).empty())
+    if (!ros2::fromCdr(bytes, cloud, why)) throw std::runtime_error(why);
+    const auto layout = CloudLayout::of(cloud, why);
+    if (!layout || shape.fit(*layout, {tilt(), tilt(), kMotion}, why).empty())
       throw std::runtime_error(why);
   });
   state.counters["ms"] = seconds / 1e6;

@@ -9,12 +9,12 @@
 namespace ortung::ros2 {
 namespace {
 
-TEST(VelocityHistory, TheNewestOneOfATimeCounts) {
+TEST(VelocityHistory, BetweenTwoItIsInterpolated) {
   VelocityHistory velocities;
   velocities.add(200'000, {2, 0.2, 0.02});
   velocities.add(100'000, {1, 0.1, 0.01});
   EXPECT_EQ(velocities.at(100'000).forward, 1.0);
-  EXPECT_EQ(velocities.at(199'999).left, 0.1);
+  EXPECT_NEAR(velocities.at(150'000).left, 0.15, 1e-12);
   EXPECT_EQ(velocities.at(200'000).turn, 0.02);
   EXPECT_EQ(velocities.at(700'000).forward, 2.0);
   EXPECT_EQ(velocities.at(700'001).forward, 0.0) << "it is too old";

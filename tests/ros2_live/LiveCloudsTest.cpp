@@ -88,15 +88,15 @@ TEST_F(LiveCloudsTest, WaitForTheTransformThatTellsWhereTheLidarSits) {
   EXPECT_EQ(scan(readings), kCross);
 }
 
-TEST_F(LiveCloudsTest, TheMotionOfTheNewestOdometryIsTakenOut) {
+TEST_F(LiveCloudsTest, TheMotionThatOdometryTellsIsTakenOut) {
   LiveReadings readings(options("odometry"));
   mount(readings, "lidar", {{0, 0, 0.5}, {}});
   CloudForm form;
   form.fields.push_back({"t", 16, CloudForm::Field::kWord, 1});
   form.pointStep = 20;
-  odometry(readings, 0.0, 1.0);
-  odometry(readings, 0.1, 2.0);
-  odometry(readings, 0.3, 3.0);  // arrives before the cloud, and is of another time
+  odometry(readings, 0.0, 9.0);
+  odometry(readings, 0.1, 1.5);
+  odometry(readings, 0.4, 2.5);  // 2 m/s at 0.25 s, when the point was seen
   readings.takeCloud(0, toCdr(cloudOf({{3.9, 0, 0, 50e6}}, form, at(0.2))));
   EXPECT_EQ(scan(readings), (std::vector<std::uint32_t>{0, 0, 0, 0, 4000, 0, 0, 0}));
 }

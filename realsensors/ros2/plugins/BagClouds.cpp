@@ -116,7 +116,14 @@ void Bag::takeCloud(const McapMessage& message) {
   if (!series.shape) return;
   const Timestamp stamp = stampOf(cloud.header, message);
   std::string why;
-  const auto found = series.shape->fit(cloud, tiltAt(stamp), velocities_.at(stamp), why);
+  const auto layout = CloudLayout::of(cloud, why);
+  std::span<const float> found;
+  if (layout)
+    found = series.shape->fit(
+        *layout,
+        motionDuring(
+            layout->sweep(), stamp, [this](Timestamp at) { return tiltAt(at); }, velocities_),
+        why);
   if (!found.empty()) {
     keep(found.size_bytes());
     series.list.push_back({stamp, {found.begin(), found.end()}});

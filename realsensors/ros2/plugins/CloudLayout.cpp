@@ -205,4 +205,27 @@ void CloudLayout::readTimes(std::size_t row, std::size_t first, std::span<float>
   }
 }
 
+Timestamp CloudLayout::stamp() const {
+  const std::int64_t nanoseconds = cloud_->header.stamp;
+  return nanoseconds / 1000 - (nanoseconds % 1000 < 0 ? 1 : 0);
+}
+
+CloudLayout::Sweep CloudLayout::sweep() const {
+  if (!hasTimes() || columns_ == 0) return {};
+  constexpr std::size_t kPiece = 256;
+  std::array<float, kPiece> seconds;
+  Sweep sweep{kLongestSweep, -kLongestSweep};
+  for (std::size_t row = 0; row < rows_; ++row) {
+    for (std::size_t first = 0; first < columns_; first += kPiece) {
+      const std::span<float> piece(seconds.data(), std::min(kPiece, columns_ - first));
+      readTimes(row, first, piece);
+      for (const float time : piece) {
+        sweep.begin = std::min(sweep.begin, time);
+        sweep.end = std::max(sweep.end, time);
+      }
+    }
+  }
+  return sweep;
+}
+
 }  // namespace ortung::ros2

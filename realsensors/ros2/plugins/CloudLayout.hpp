@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "ortung/base/Time.hpp"
 #include "ortung/ros2/Messages.hpp"
 
 namespace ortung::ros2 {
@@ -26,6 +27,13 @@ class CloudLayout {
   std::size_t columns() const { return columns_; }  ///< points of a row
   /// Whether points have a time of their own whose meaning is known.
   bool hasTimes() const { return time_.has_value(); }
+  /// The cloud's stamp [us].
+  Timestamp stamp() const;
+  /// When a sweep was measured, after the stamp [s]; zeros without times.
+  struct Sweep {
+    float begin = 0.0F, end = 0.0F;
+  };
+  Sweep sweep() const;
 
   /// Reads coordinates [m] of as many points of a row as the spans have, from one on. What is no
   /// number, or no place, is NaN or infinite.

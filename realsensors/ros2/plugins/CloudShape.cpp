@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "CloudLayout.hpp"
 #include "FrameTree.hpp"
 #include "ortung/base/Angles.hpp"
 
@@ -31,9 +30,28 @@ void checkNumber(const char* what, double value, double least, double most) {
 
 /// A rotation and a translation.
 struct Placing {
-  std::array<float, 9> turn;  ///< row-major
-  std::array<float, 3> shift;
+  std::array<float, 9> turn{};  ///< row-major
+  std::array<float, 3> shift{};
 };
+
+Placing placingOf(const Eigen::Matrix3d& tilt, const Eigen::Isometry3d& mount) {
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> turn = (tilt * mount.linear()).cast<float>();
+  const Eigen::Vector3f shift = (tilt * mount.translation()).cast<float>();
+  Placing placing;
+  std::copy_n(turn.data(), 9, placing.turn.begin());
+  std::copy_n(shift.data(), 3, placing.shift.begin());
+  return placing;
+}
+
+/// Returns how a placing changes in a second, if it becomes another one within some.
+Placing changeOf(const Placing& from, const Placing& to, float seconds) {
+  Placing change;
+  for (std::size_t i = 0; i < change.turn.size(); ++i)
+    change.turn[i] = (to.turn[i] - from.turn[i]) / seconds;
+  for (std::size_t i = 0; i < change.shift.size(); ++i)
+    change.shift[i] = (to.shift[i] - from.shift[i]) / seconds;
+  return change;
+}
 
 /// What a point must be like to count.
 struct Limits {
@@ -52,11 +70,14 @@ struct CloudShape::Block {
   alignas(64) Row late;                               ///< after the stamp [s]
   alignas(64) Row range;                              ///< in the plane [m]; 0: does not count
   alignas(64) std::array<std::int32_t, kBlock> beam;  ///< in [0, beams]
-  Placing placing;
+  Placing placing;                                    ///< at the sweep's beginning
+  Placing change;                                     ///< of the placing, in a second
+  CloudLayout::Sweep sweep;
   Limits limits;
   bool seesFar;  ///< whether rays that leave the lidar are in the band
 
   void level(std::size_t count);
+  void levelInTime(std::size_t count);
   void undoMotion(std::size_t count, const PlanarVelocity& motion);
   void measure(std::size_t count);
 };
@@ -73,6 +94,26 @@ void CloudShape::Block::level(std::size_t count) {
     x[i] = m[0] * px + m[1] * py + m[2] * pz + t[0];
     y[i] = m[3] * px + m[4] * py + m[5] * pz + t[1];
     z[i] = m[6] * px + m[7] * py + m[8] * pz + t[2];
+  }
+}
+
+/// Does the same while the robot sways: the rotation goes on evenly. During a sweep it changes by a
+/// few degrees, so that its numbers do, too.
+void CloudShape::Block::levelInTime(std::size_t count) {
+  const auto [m, t] = placing;
+  const auto [dm, dt] = change;
+  const float begin = sweep.begin;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float s = late[i] - begin;
+    const float px = x[i];
+    const float py = y[i];
+    const float pz = z[i];
+    x[i] = (m[0] + s * dm[0]) * px + (m[1] + s * dm[1]) * py + (m[2] + s * dm[2]) * pz +
+           (t[0] + s * dt[0]);
+    y[i] = (m[3] + s * dm[3]) * px + (m[4] + s * dm[4]) * py + (m[5] + s * dm[5]) * pz +
+           (t[1] + s * dt[1]);
+    z[i] = (m[6] + s * dm[6]) * px + (m[7] + s * dm[7]) * py + (m[8] + s * dm[8]) * pz +
+           (t[2] + s * dt[2]);
   }
 }
 
@@ -181,15 +222,17 @@ Scanner CloudShape::scanner() const {
 }
 
 /// Sets what holds for all points of a cloud.
-void CloudShape::place(const Eigen::Matrix3d& tilt) {
-  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> turn = (tilt * mount_.linear()).cast<float>();
-  const Eigen::Vector3f shift = (tilt * mount_.translation()).cast<float>();
-  std::copy_n(turn.data(), 9, block_->placing.turn.begin());
-  std::copy_n(shift.data(), 3, block_->placing.shift.begin());
+void CloudShape::place(const CloudLayout& cloud, const SweepMotion& motion) {
+  block_->sweep = cloud.sweep();
+  const float seconds = block_->sweep.end - block_->sweep.begin;
+  block_->placing = placingOf(motion.tiltAtBegin, mount_);
+  block_->change = {};
+  if (seconds > 0.0F)
+    block_->change = changeOf(block_->placing, placingOf(motion.tiltAtEnd, mount_), seconds);
   Limits& limits = block_->limits;
   limits.originX = static_cast<float>(origin_.x);
   limits.originY = static_cast<float>(origin_.y);
-  limits.eye = shift.z();
+  limits.eye = block_->placing.shift[2] + 0.5F * seconds * block_->change.shift[2];
   limits.minHeight = static_cast<float>(band_.minHeight);
   limits.maxHeight = static_cast<float>(band_.maxHeight);
   limits.minRange = static_cast<float>(band_.minRange);
@@ -217,27 +260,25 @@ void CloudShape::takeBlock(std::size_t count) {
   }
 }
 
-std::span<const float> CloudShape::fit(const PointCloud& cloud, const Eigen::Matrix3d& tilt,
-                                       const PlanarVelocity& motion, std::string& why) {
-  const auto layout = CloudLayout::of(cloud, why);
-  if (!layout) return {};
-  place(tilt);
+std::span<const float> CloudShape::fit(const CloudLayout& cloud, const SweepMotion& motion,
+                                       std::string& why) {
+  place(cloud, motion);
   std::fill(nearest_.begin(), nearest_.end(), std::numeric_limits<float>::infinity());
   std::fill(isFree_.begin(), isFree_.end(), std::uint8_t{0});
   keptCount_ = 0;
-  kept_.resize(std::max(kept_.size(), layout->rows() * layout->columns()));
-  const bool isMoving = motion.forward != 0.0 || motion.left != 0.0 || motion.turn != 0.0;
-  const bool isCorrected = isMoving && layout->hasTimes();
-  for (std::size_t row = 0; row < layout->rows(); ++row) {
-    for (std::size_t first = 0; first < layout->columns(); first += kBlock) {
-      Block& block = *block_;
-      const std::size_t count = std::min(kBlock, layout->columns() - first);
-      layout->readPlaces(row, first, std::span(block.x).first(count),
-                         std::span(block.y).first(count), std::span(block.z).first(count));
-      block.level(count);
-      if (isCorrected) {
-        layout->readTimes(row, first, std::span(block.late).first(count));
-        block.undoMotion(count, motion);
+  kept_.resize(std::max(kept_.size(), cloud.rows() * cloud.columns()));
+  Block& block = *block_;
+  for (std::size_t row = 0; row < cloud.rows(); ++row) {
+    for (std::size_t first = 0; first < cloud.columns(); first += kBlock) {
+      const std::size_t count = std::min(kBlock, cloud.columns() - first);
+      cloud.readPlaces(row, first, std::span(block.x).first(count), std::span(block.y).first(count),
+                       std::span(block.z).first(count));
+      if (cloud.hasTimes()) {
+        cloud.readTimes(row, first, std::span(block.late).first(count));
+        block.levelInTime(count);
+        block.undoMotion(count, motion.velocity);
+      } else {
+        block.level(count);
       }
       block.measure(count);
       takeBlock(count);

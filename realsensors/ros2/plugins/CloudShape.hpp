@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "CloudLayout.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/realsensors/Scanner.hpp"
-#include "ortung/ros2/Messages.hpp"
 
 namespace ortung::ros2 {
 
@@ -30,6 +30,14 @@ struct CloudBand {
 struct PlanarVelocity {
   double forward = 0.0, left = 0.0;  ///< [m/s]
   double turn = 0.0;                 ///< [rad/s]
+};
+
+/// How a robot leans and moves during a sweep. Rotations are from the robot's frame into one of the
+/// same heading that is level.
+struct SweepMotion {
+  Eigen::Matrix3d tiltAtBegin = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d tiltAtEnd = Eigen::Matrix3d::Identity();
+  PlanarVelocity velocity;  ///< in the middle of the sweep
 };
 
 /// Makes scans of a planar scanner of the clouds of a lidar that sits anywhere on a robot, in any
@@ -59,13 +67,10 @@ class CloudShape {
 
   /// Returns the ranges of a cloud [m], which are valid until the next one: NaN: not valid;
   /// +infinity: nothing seen.
-  /// @param tilt   rotation from the robot's frame into one of the same heading that is level
-  /// @param motion the robot's velocity during the sweep, by which points that have times are put
-  ///   to where they were at the cloud's stamp
+  /// @param motion by which points that have times are put to where they were at the cloud's stamp
   /// @param why    out: what is wrong with a cloud of which nothing is made, e.g. since none of its
   ///   points is in the band
-  std::span<const float> fit(const PointCloud& cloud, const Eigen::Matrix3d& tilt,
-                             const PlanarVelocity& motion, std::string& why);
+  std::span<const float> fit(const CloudLayout& cloud, const SweepMotion& motion, std::string& why);
 
   Scanner scanner() const;
   const CloudBand& band() const { return band_; }
@@ -76,7 +81,7 @@ class CloudShape {
     std::uint32_t beam;
     float range;
   };
-  void place(const Eigen::Matrix3d& tilt);
+  void place(const CloudLayout& cloud, const SweepMotion& motion);
   void takeBlock(std::size_t count);
   std::span<const float> finish(std::string& why);
 

@@ -37,10 +37,15 @@ PlanarVelocity VelocityHistory::at(Timestamp stamp) {
   const auto after =
       std::upper_bound(list_.begin(), list_.end(), stamp,
                        [](Timestamp wanted, const auto& one) { return wanted < one.first; });
-  if (after != list_.begin() && stamp - std::prev(after)->first <= kLongest)
-    return std::prev(after)->second;
-  if (after != list_.end() && after->first - stamp <= kLongest) return after->second;
-  return {};
+  const bool isBefore = after != list_.begin() && stamp - std::prev(after)->first <= kLongest;
+  const bool isAfter = after != list_.end() && after->first - stamp <= kLongest;
+  if (!isBefore && !isAfter) return {};
+  const auto& [begin, from] = isBefore ? *std::prev(after) : *after;
+  const auto& [end, to] = isAfter ? *after : *std::prev(after);
+  if (end <= begin) return from;
+  const double share = static_cast<double>(stamp - begin) / static_cast<double>(end - begin);
+  return {from.forward + share * (to.forward - from.forward),
+          from.left + share * (to.left - from.left), from.turn + share * (to.turn - from.turn)};
 }
 
 }  // namespace ortung::ros2

@@ -23,8 +23,8 @@ class VelocityHistory {
   void add(Timestamp stamp, const PlanarVelocity& velocity);
   /// Adds a pose of odometry that tells no velocity: it is that since the pose before.
   void addPose(Timestamp stamp, const Pose2& pose);
-  /// Returns the newest velocity of a time: that of the newest odometry before; without one, that
-  /// of the next. Zeros if none is near.
+  /// Returns the velocity at a time: between two odometries it is interpolated; beyond the newest
+  /// one, and before the first, theirs holds. Zeros if none is near.
   PlanarVelocity at(Timestamp stamp);
 
  private:
@@ -34,5 +34,21 @@ class VelocityHistory {
   std::vector<std::pair<Timestamp, PlanarVelocity>> list_;
   std::optional<std::pair<Timestamp, Pose2>> last_;
 };
+
+/// Returns how a robot leans and moves during a sweep.
+/// @param stamp  the sweep's
+/// @param tiltAt returns the robot's tilt at a time, a rotation as SweepMotion has them
+template <class TiltAt>
+SweepMotion motionDuring(const CloudLayout::Sweep& sweep, Timestamp stamp, TiltAt tiltAt,
+                         VelocityHistory& velocities) {
+  const auto after = [&](float seconds) {
+    return stamp + fromSeconds(static_cast<double>(seconds));
+  };
+  SweepMotion motion;
+  motion.tiltAtBegin = tiltAt(after(sweep.begin));
+  motion.tiltAtEnd = sweep.end > sweep.begin ? tiltAt(after(sweep.end)) : motion.tiltAtBegin;
+  motion.velocity = velocities.at(after(0.5F * (sweep.begin + sweep.end)));
+  return motion;
+}
 
 }  // namespace ortung::ros2
