@@ -4,9 +4,10 @@
 //   static PARENT CHILD X Y THETA
 //   odom STAMP_NS X Y THETA V W
 //   scan STAMP_NS FRAME ANGLE_MIN STEP RANGE_MAX COUNT RANGE...
+//   cloud STAMP_NS FRAME COUNT X Y Z...   at `points`
 //   initial X Y THETA
 //   map FILE.pgm RESOLUTION X Y YAW      as map_server does with black, white and grey
-//   sample scan ...                  what `ready` says meanwhile
+//   sample scan ... or cloud ...     what `ready` says meanwhile
 //   ready                            goes on once everybody is there
 // It prints "said STAMP_NS AT" of odometry, "matched SECONDS" once all it needs is there, "node
 // ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
@@ -185,6 +186,33 @@ static void say_scan(dds_entity_t scans, const char* line) {
   must(dds_write(scans, &m), "scan");
 }
 
+// As many drivers lay points out: coordinates, and a word that is no coordinate.
+static void say_cloud(dds_entity_t clouds, const char* line) {
+  enum { kMostPoints = 65536 };
+  static float points[kMostPoints][4];
+  static sensor_msgs_msg_dds__PointField_ fields[4] = {
+      {"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"intensity", 12, 7, 1}};
+  char frame[256];
+  long long stamp;
+  unsigned count = 0;
+  int used = 0;
+  if (sscanf(line, "cloud %lld %255s %u%n", &stamp, frame, &count, &used) < 3 ||
+      count > kMostPoints)
+    fprintf(stderr, "cyclone_peer: bad line: %.60s\n", line), exit(1);
+  char* at = (char*)line + used;
+  for (unsigned i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) points[i][axis] = strtof(at, &at);
+  sensor_msgs_msg_dds__PointCloud2_ m = {.header = {{0, 0}, frame}, .height = 1, .width = count};
+  set_time(&m.header.stamp, stamp);
+  m.point_step = sizeof points[0], m.row_step = (uint32_t)sizeof points[0] * count;
+  m.fields._length = m.fields._maximum = 4, m.fields._buffer = fields;
+  m.data._length = m.data._maximum = m.row_step, m.data._buffer = (uint8_t*)points;
+  m.is_dense = true;
+  must(dds_write(clouds, &m), "points");
+}
+
+static int is_cloud(const char* line) { return line != NULL && strncmp(line, "cloud ", 6) == 0; }
+
 // What the endpoints that write a topic say of themselves: the hash of its type, since Iron.
 static void print_user_data(const char* name, dds_entity_t topic_reader) {
   dds_instance_handle_t writers[8];
@@ -216,7 +244,7 @@ static void wait_for_peers(const char* sample, dds_entity_t scan, dds_entity_t o
     if (a.current_count && b.current_count && c.current_count && d.current_count && e.current_count)
       break;
     if (sample != NULL && a.current_count && now() - said > 0.2)
-      say_scan(scan, sample), said = now();
+      (is_cloud(sample) ? say_cloud : say_scan)(scan, sample), said = now();
     if (now() - begin > 30.0)
       fprintf(stderr, "cyclone_peer: nobody is there after 30 s\n"), exit(1);
     rest(0.005);
@@ -232,6 +260,7 @@ int main(int argc, char** argv) {
   participant = dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL);
   must(participant, "participant");
   dds_entity_t scans = writer("rt/scan", &sensor_msgs_msg_dds__LaserScan__desc, 0, 0);
+  dds_entity_t clouds = writer("rt/points", &sensor_msgs_msg_dds__PointCloud2__desc, 0, 0);
   dds_entity_t odometry = writer("rt/odom", &nav_msgs_msg_dds__Odometry__desc, 1, 0);
   dds_entity_t fixed = writer("rt/tf_static", &tf2_msgs_msg_dds__TFMessage__desc, 1, 1);
   dds_entity_t maps = writer("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1);
@@ -255,7 +284,8 @@ int main(int argc, char** argv) {
     char frame[256], child[256];
     double x, y, theta, v, w;
     long long stamp = -1;
-    if (sscanf(line, "scan %lld", &stamp) == 1 || sscanf(line, "odom %lld", &stamp) == 1) {
+    if (sscanf(line, "scan %lld", &stamp) == 1 || sscanf(line, "cloud %lld", &stamp) == 1 ||
+        sscanf(line, "odom %lld", &stamp) == 1) {
       if (first < 0) first = stamp;
       while (now() - begin < 1e-9 * (double)(stamp - first) / pace) hear(heard), rest(0.001);
     }
@@ -284,8 +314,10 @@ int main(int argc, char** argv) {
     } else if (strncmp(line, "sample ", 7) == 0) {
       sample = strdup(line + 7);
     } else if (strncmp(line, "ready", 5) == 0) {
-      wait_for_peers(sample, scans, odometry, fixed, heard);
+      wait_for_peers(sample, is_cloud(sample) ? clouds : scans, odometry, fixed, heard);
       begin = now();
+    } else if (is_cloud(line)) {
+      say_cloud(clouds, line);
     } else {
       say_scan(scans, line);
     }

@@ -104,7 +104,7 @@ def main():
             "call /request_nomotion_update std_srvs/srv/Empty " + Writer().number("B", 0).hex()])
         expect("particles = 5000" in (folder / "cache" / "robot.toml").read_text(), "a parameter that was set while it ran")
         expect(said[0].count("localizing") == 1 and said[0].count("another map") == 1, "a map that replaces another: %s" % said[0])
-        check(heard, expected, lines, said, 0.1, asked=1)
+        check(heard, expected, lines, said, 0.15, asked=1)  # of other samples
         # A map that is turned about its lower left corner: so are the poses.
         x, y, yaw = float(x), float(y), 0.65
         told = ["map %s %s %r %r %r" % (base.with_suffix(".pgm"), yaml["resolution"], x, y, yaw), lines[0], "sample " + first, "ready", *lines[1:]]
@@ -112,6 +112,27 @@ def main():
                   for us, px, py, theta in expected]
         heard, said = live(folder, ["--folder", folder / "turned"], told)
         check(heard, turned, lines, said, 0.2)  # cells of tables lie elsewhere in the map
+        # And by clouds in the place of scans: ten points above each other, half of them in the band.
+        points = [cloud_of(line) if line.startswith("scan") else line for line in lines]
+        first = next(line for line in points if line.startswith("cloud"))
+        told = [maps[0], lines[0], "sample " + first, "ready", *points[1:]]
+        heard, said = live(folder, ["--folder", folder / "points", "--cloud", "points", "--band=-0.2,0.25"], told)
+        expect('feature = "scan"' in (folder / "points" / "robot.toml").read_text() and "beams = 360" in (folder / "points" / "robot.toml").read_text(),
+               "a robot file made of clouds")
+        check(heard, expected, lines, said, 0.15)
+
+
+def cloud_of(line):
+    """A scan as a cloud of points; those that nothing was seen at are none."""
+    _, stamp, frame, first, step, most, _, *ranges = line.split()
+    places = []
+    for i, text in enumerate(ranges):
+        angle, distance = float(first) + i * float(step), float(text)
+        if not 0 < distance < float(most):
+            continue
+        x, y = distance * math.cos(angle), distance * math.sin(angle)
+        places += ["%.4f %.4f %.1f" % (x, y, 0.1 * k - 0.5) for k in range(10)]
+    return "cloud %s %s %d %s" % (stamp, frame, len(places), " ".join(places))
 
 
 def set_count(name, count):
