@@ -90,6 +90,8 @@ LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
   for (const std::string& cloud : options.clouds)
     wanted.lidars.push_back(lidarOf(container, cloud, options.bands));
   wanted.level = options.level;
+  for (const std::string& feature : options.features)
+    wanted.features.push_back(liveFeatureOf(container, feature, options.map));
   return wanted;
 }
 
@@ -176,6 +178,10 @@ void LiveLocalization::listen(Participant& node) {
     node.subscribe(topicOf(options_.scans[i]), LaserScan::kType, Qos::kSensor,
                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
   listenForClouds(node);
+  const auto& features = readings_.features();
+  for (std::size_t i = 0; i < features.size(); ++i)
+    node.subscribe(features[i].topic, features[i].type, Qos::kSensor,
+                   [this, i](std::string_view cdr) { readings_.takeFeature(i, cdr); });
 }
 
 void LiveLocalization::listenForClouds(Participant& node) {

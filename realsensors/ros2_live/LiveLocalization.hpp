@@ -28,6 +28,8 @@ class LiveLocalization {
     /// Topics of scans, each with the feature it is of, as "scan=laser/LRF/scan"; without one it is
     /// the robot's only scanner.
     std::vector<std::string> scans = {"scan"};
+    /// Topics whose messages fill a feature as they are, as "sonar=front/sonar/range".
+    std::vector<std::string> features = {};
     std::vector<std::string> clouds = {};  ///< topics of lidars, likewise
     CloudBands bands = {};                 ///< heights at which their points count
     std::string level = "odometry";  ///< what levels them: a topic of Imu, "odometry" or "none"

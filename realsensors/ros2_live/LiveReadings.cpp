@@ -22,10 +22,6 @@ constexpr std::size_t kClockWasSet = 100;
 /// How far a scan may be ahead of odometry: one from another clock would make all others late [us].
 constexpr Timestamp kMostAhead = 1'000'000;
 
-Timestamp stampOf(const Header& header) {
-  return header.stamp / 1000 - (header.stamp % 1000 < 0 ? 1 : 0);
-}
-
 }  // namespace
 
 LiveReadings::LiveReadings(Options options)
@@ -97,6 +93,18 @@ void LiveReadings::takeScan(std::size_t scanner, std::string_view cdr) {
   if (shape->isClockwise() != areUpsideDown_[scanner])
     std::reverse(reading.words.begin(), reading.words.end());
   putScan(std::move(reading), wanted.topic);
+}
+
+void LiveReadings::takeFeature(std::size_t feature, std::string_view cdr) {
+  const LiveFeature& wanted = options_.features.at(feature);
+  try {
+    Message reading = wanted.read(cdr);
+    const std::lock_guard lock(mutex_);
+    putScan(std::move(reading), wanted.topic);
+  } catch (const std::invalid_argument& error) {
+    const std::lock_guard lock(mutex_);
+    leaveOut(wanted.topic + ": " + error.what());
+  }
 }
 
 void LiveReadings::putScan(Message reading, const std::string& topic) {

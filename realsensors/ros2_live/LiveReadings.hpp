@@ -14,6 +14,7 @@
 
 #include "CloudShape.hpp"
 #include "FrameTree.hpp"
+#include "LiveFeatures.hpp"
 #include "ScanShape.hpp"
 #include "TiltHistory.hpp"
 #include "VelocityHistory.hpp"
@@ -47,6 +48,7 @@ class LiveReadings {
   struct Options {
     std::vector<Scanner> scanners;
     std::vector<Lidar> lidars;
+    std::vector<LiveFeature> features;  ///< that messages fill as they are
     /// What tells roll and pitch, by which clouds are levelled: a topic of sensor_msgs/Imu,
     /// "odometry" or "none".
     std::string level = "odometry";
@@ -66,9 +68,12 @@ class LiveReadings {
   // What arrives, as bytes (CDR).
   void takeScan(std::size_t scanner, std::string_view cdr);
   void takeCloud(std::size_t lidar, std::string_view cdr);
+  void takeFeature(std::size_t feature, std::string_view cdr);
   void takeImu(std::string_view cdr);
   void takeOdometry(std::string_view cdr);
   void takeTransforms(std::string_view cdr, bool isStatic);
+
+  const std::vector<LiveFeature>& features() const { return options_.features; }
 
   /// Waits for the next moment. @param longest then an empty one is returned
   /// @return nothing after stop()

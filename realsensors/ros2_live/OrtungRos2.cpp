@@ -94,6 +94,10 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "--level", options.level,
          "What tells roll and pitch, for clouds: a topic of sensor_msgs/Imu, odometry, none")
       ->capture_default_str();
+  app.add_option("--feature", options.features,
+                 "Topic whose messages (Range, PoseWithCovarianceStamped) fill a feature of the "
+                 "robot file, TOPIC=MODEL/TYPE/FEATURE; may be given again")
+      ->needs("--robot");
   app.add_option("--odometry", options.odometry, "Topic of nav_msgs/Odometry, or tf: odom -> base")
       ->capture_default_str();
   app.add_option("--base-frame", options.base, "Frame of the robot")->capture_default_str();
@@ -160,10 +164,12 @@ void useParameters(Arguments& arguments, const RosArguments& ros) {
                                 std::numbers::pi / 12.0};
 }
 
-/// Takes what clouds need. With clouds there are scans only where an option names them.
+/// Takes what clouds need. With clouds or features there are scans only where an option names
+/// them.
 void useClouds(const CLI::App& app, Arguments& arguments) {
   LiveLocalization::Options& options = arguments.node.localization;
-  if (!options.clouds.empty() && app.count("--scan") == 0) options.scans.clear();
+  const bool hasOthers = !options.clouds.empty() || !options.features.empty();
+  if (hasOthers && app.count("--scan") == 0) options.scans.clear();
   try {
     options.bands.takeHeights(arguments.band);
     options.bands.check();

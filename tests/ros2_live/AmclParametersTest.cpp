@@ -22,7 +22,7 @@ using Value = AmclParameters::Value;
 using Kind = AmclParameters::Description::Kind;
 
 std::filesystem::path ownFile() {
-  return std::filesystem::path(__FILE__).parent_path() / "nav2_params.yaml";
+  return std::filesystem::path(ORTUNG_SOURCE_DIR) / "tests/ros2_live/nav2_params.yaml";
 }
 
 AmclParameters read(const std::filesystem::path& file, const RosNames& names) {

@@ -1,0 +1,87 @@
+#include "LiveFeatures.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "FrameTree.hpp"
+#include "ortung/formats/ConeData.hpp"
+#include "ortung/formats/FormatNames.hpp"
+#include "ortung/formats/PoseFixData.hpp"
+#include "ortung/realsensors/LogFile.hpp"
+#include "ortung/ros2/Messages.hpp"
+#include "ortung/ros2/RobotTopics.hpp"
+
+namespace ortung::ros2 {
+namespace {
+
+template <class M>
+M decoded(std::string_view cdr) {
+  std::string why;
+  const auto message = fromCdr<M>(cdr, why);
+  if (!message) throw std::invalid_argument("no message: " + why);
+  return *message;
+}
+
+/// By REP 117: beyond its range nothing was seen, which infinity says, too; negative infinity is an
+/// object that is too near to tell its distance.
+std::uint32_t wordOf(const Range& told, double maxRange) {
+  double range = static_cast<double>(told.range);
+  const bool isBeyond = range >= static_cast<double>(told.maxRange) && told.maxRange > 0.0F;
+  if (isBeyond) range = std::numeric_limits<double>::infinity();
+  if (range < static_cast<double>(told.minRange) || range < 0.0)
+    range = std::numeric_limits<double>::quiet_NaN();
+  return ConeData::encode(range, maxRange);
+}
+
+Message readRange(std::string_view cdr, const SensorId& feature, double maxRange) {
+  const auto told = decoded<Range>(cdr);
+  return {stampOf(told.header), feature, {wordOf(told, maxRange)}};
+}
+
+Message readFix(std::string_view cdr, const SensorId& feature, const std::string& map) {
+  const auto told = decoded<PoseWithCovarianceStamped>(cdr);
+  if (told.header.frame != map)
+    throw std::invalid_argument("a pose in '" + told.header.frame + "', expected '" + map + "'");
+  const PoseFixData::Fix fix{toPose2(told.pose), toPlane(told.covariance)};
+  bool isSound = isPlausible(fix.pose);
+  for (const double value : fix.covariance) isSound = isSound && std::abs(value) <= 1e12;
+  for (const std::size_t diagonal : {0, 4, 8}) isSound = isSound && fix.covariance[diagonal] >= 0.0;
+  if (!isSound) throw std::invalid_argument("a pose or covariance that is none");
+  return {stampOf(told.header), feature, PoseFixData::encode(std::span(&fix, 1))};
+}
+
+}  // namespace
+
+Timestamp stampOf(const Header& header) {
+  return header.stamp / 1000 - (header.stamp % 1000 < 0 ? 1 : 0);
+}
+
+LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& text,
+                          const std::string& map) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals == 0)
+    throw std::invalid_argument(text + ": expected TOPIC=MODEL/TYPE/FEATURE");
+  const SensorId id = parseSensorId(text.substr(equals + 1));
+  const SensorData* const data = container.findExactly(id);
+  if (data == nullptr)
+    throw std::invalid_argument(text + ": the robot file has no feature of that name");
+  const Format format = data->format();
+  LiveFeature found{text.substr(0, equals), "", id, {}};
+  if (format.name() == formats::kCone) {
+    found.type = Range::kType;
+    found.read = [id, most = format.number("max_m")](std::string_view cdr) {
+      return readRange(cdr, id, most);
+    };
+  } else if (format.name() == formats::kFix) {
+    found.type = PoseWithCovarianceStamped::kType;
+    found.read = [id, map](std::string_view cdr) { return readFix(cdr, id, map); };
+  } else {
+    throw std::invalid_argument(text + ": no message of ROS 2 fills a feature of the format " +
+                                std::string(format.name()) + ", expected " + formats::kCone +
+                                " or " + formats::kFix);
+  }
+  return found;
+}
+
+}  // namespace ortung::ros2
