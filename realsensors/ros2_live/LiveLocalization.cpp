@@ -102,7 +102,8 @@ LiveLocalization::LiveLocalization(const Options& options, LiveRequests& request
       readings_(readingsOf(options, localization_->container())),
       transform_({options.map, options.odom, options.transformTolerance}),
       requests_(requests),
-      tellsTransform_(options.tellsTransform) {
+      tellsTransform_(options.tellsTransform),
+      likelihood_(options.map) {
   localization_->wantSamples(true);
   setActive(true);
   if (options.belief.empty() || options.startsAnew || !std::filesystem::exists(options.belief))
@@ -177,6 +178,7 @@ void LiveLocalization::listen(Participant& node) {
   for (std::size_t i = 0; i < options_.scans.size(); ++i)
     node.subscribe(topicOf(options_.scans[i]), LaserScan::kType, Qos::kSensor,
                    [this, i](std::string_view cdr) { readings_.takeScan(i, cdr); });
+  likelihood_.connect(node);
   listenForClouds(node);
   const auto& features = readings_.features();
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -257,7 +259,10 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
     return;
   }
   const auto estimate = localization_->update();
-  if (estimate) tellPose(*estimate);
+  if (estimate) {
+    tellPose(*estimate);
+    if (isActive_) likelihood_.tell(localization_->robot(), estimate->pose.theta);
+  }
   tellDiagnostics();
   for (const Message& reading : moment.readings)
     if (moment.inOdometry && reading.id == odometry_) lastOdometry_ = reading;
@@ -300,6 +305,7 @@ void LiveLocalization::run(const std::function<bool()>& goOn) {
       saveBelief();
     }
   }
+  likelihood_.finish();
   report();
   saveBelief();
 }

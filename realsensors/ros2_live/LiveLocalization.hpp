@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "CloudBands.hpp"
+#include "LikelihoodMap.hpp"
 #include "LiveReadings.hpp"
 #include "LiveRequests.hpp"
 #include "MapTransform.hpp"
@@ -84,6 +85,7 @@ class LiveLocalization {
   std::atomic<bool> tellsTransform_;
   Participant* node_ = nullptr;  ///< borrowed
   Participant::Sender pose_, particles_, diagnostics_;
+  LikelihoodMap likelihood_;
   std::optional<Message> lastOdometry_;  ///< that the localization has
   std::uint64_t toldStatus_ = 0;         ///< sequence of the status that diagnostics had last
   std::map<std::string, std::uint64_t> reported_;

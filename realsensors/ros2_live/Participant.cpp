@@ -226,12 +226,23 @@ Participant::Sender Participant::publish(const std::string& topic, std::string_v
   const std::lock_guard lock(p.mutex);
   dds::DataWriter* const writer =
       p.writer(ddsTopic(p.options.names.resolve(topic)), ddsType(type), p.userDataOf(type), qos);
+  p.offered[p.options.names.resolve(topic)] = writer;
   p.writerIds.push_back(writer->guid());
   p.tellGraph();
   return [&p, writer](std::string_view cdr) {
     Bytes bytes{std::string(cdr)};
     if (!writer->write(&bytes)) ++p.dropped;
   };
+}
+
+bool Participant::isHeard(const std::string& topic) const {
+  Parts& p = *parts_;
+  const std::lock_guard lock(p.mutex);
+  const auto found = p.offered.find(p.options.names.resolve(topic));
+  if (found == p.offered.end()) return false;
+  dds::PublicationMatchedStatus status;
+  found->second->get_publication_matched_status(status);
+  return status.current_count > 0;
 }
 
 void Participant::serve(const std::string& service, std::string_view type, Handler handler) {

@@ -57,6 +57,8 @@ class Participant {
   /// Offers a topic. @return what sends a message; valid as long as this
   /// @throws std::runtime_error
   Sender publish(const std::string& topic, std::string_view type, Qos qos);
+  /// Whether somebody reads a topic that this offers.
+  bool isHeard(const std::string& topic) const;
   /// Offers a service as rmw_fastrtps does, which tells in the head of a DDS message whose request
   /// is answered; nodes on another DDS do so in another way, and don't find it.
   /// Requests are answered one at a time on a thread of their own. One for which @p handler throws

@@ -33,7 +33,8 @@ struct Participant::Parts {
   std::vector<std::unique_ptr<dds::DataReaderListener>> listeners;
   std::vector<std::unique_ptr<Service>> services;
   std::vector<dds::DataReader*> readers;
-  std::vector<dds::DataWriter*> writers;  ///< those that have a listener
+  std::vector<dds::DataWriter*> writers;            ///< those that have a listener
+  std::map<std::string, dds::DataWriter*> offered;  ///< by the topic's whole name
   std::vector<GUID_t> readerIds, writerIds;
   dds::DataWriter* graph = nullptr;  ///< tells of the node
   std::atomic<std::uint64_t> dropped = 0, refused = 0;

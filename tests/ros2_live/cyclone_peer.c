@@ -21,7 +21,7 @@
 
 #include "messages.h"
 
-enum { kMostRanges = 65536, kTopics = 5 };
+enum { kMostRanges = 65536, kTopics = 6 };
 
 static dds_entity_t participant;
 
@@ -109,6 +109,18 @@ static void print_diagnostics(const void* sample) {
   for (uint32_t i = 0; i < m->status._length; ++i)
     printf("diagnostics %lld %d %s %s\n", nanoseconds(&m->header.stamp), m->status._buffer[i].level,
            m->status._buffer[i].name, m->status._buffer[i].message);
+}
+static void print_likelihood(const void* sample) {
+  const nav_msgs_msg_dds__OccupancyGrid_* m = sample;
+  uint32_t best = 0, open = 0;
+  for (uint32_t i = 0; i < m->data._length; ++i) {
+    if (m->data._buffer[i] > m->data._buffer[best]) best = i;
+    if (m->data._buffer[i] >= 0) ++open;
+  }
+  printf("likelihood %lld %s %u %d %.9g %.9g\n", nanoseconds(&m->header.stamp), m->header.frame_id,
+         open, m->data._length > 0 ? m->data._buffer[best] : -1,
+         m->info.origin.position.x + (best % m->info.width + 0.5) * m->info.resolution,
+         m->info.origin.position.y + (best / m->info.width + 0.5) * m->info.resolution);
 }
 static void print_nodes(const void* sample) {
   const rmw_dds_common_msg_dds__ParticipantEntitiesInfo_* m = sample;
@@ -274,7 +286,9 @@ int main(int argc, char** argv) {
       {reader("rt/diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, 1, 0),
        print_diagnostics},
       {reader("ros_discovery_info", &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, 1, 1),
-       print_nodes}};
+       print_nodes},
+      {reader("rt/likelihood_map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1),
+       print_likelihood}};
   char* line = NULL;
   size_t size = 0;
   long long first = -1;

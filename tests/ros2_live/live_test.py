@@ -194,6 +194,14 @@ def check(heard, expected, lines, said, tolerance=1e-4, asked=0):  # digits of t
     after = sorted(float(t[-1]) - said_at[int(t[0]) - 1_000_000_000] for t in of("tf") if int(t[0]) - 1_000_000_000 in said_at)
     print("from odometry to its transform: median %.1f ms, p95 %.1f ms, most %.1f ms" % (
         *[1000 * after[int(share * (len(after) - 1))] for share in (0.5, 0.95, 1.0)],))
+    maps = of("likelihood")
+    off = []
+    for stamp, frame, cells, best, x, y in maps:
+        expect(frame == "map" and int(cells) > 1000 and best == "100", "a map of %s cells in %s, at best %s" % (cells, frame, best))
+        if pose := found.get(int(stamp) // 1000):
+            off.append(math.hypot(float(x) - pose[0], float(y) - pose[1]))
+    print("%d maps of likelihoods, best at most %.2f m from the robot" % (len(maps), max(off, default=0)))
+    expect(maps and sorted(off)[len(off) // 2] < 0.3, "likelihoods %s" % off)
     check_transforms(of("tf"), poses, [line.split() for line in lines if line.startswith("odom")])
     expect(all(name == "amcl" for _, _, name, *_ in of("diagnostics")) and of("diagnostics"), "diagnostics name the node")
 

@@ -108,30 +108,6 @@ std::vector<const SensorData*> chosenFeatures(const Robot& robot,
   return features;
 }
 
-FieldRegion coarsened(const FieldRegion& region, std::size_t most) {
-  const FieldGrid& fine = region.grid;
-  int step = 1;
-  const auto cells = [&] {
-    const auto columns = static_cast<std::size_t>((fine.columns + step - 1) / step);
-    const auto rows = static_cast<std::size_t>((fine.rows + step - 1) / step);
-    return columns * rows;
-  };
-  while (cells() > most && (step < fine.columns || step < fine.rows)) ++step;
-  if (step == 1) return region;
-  FieldRegion coarse;
-  coarse.grid = {fine.originX, fine.originY, fine.cell * step, (fine.columns + step - 1) / step,
-                 (fine.rows + step - 1) / step};
-  for (std::size_t i = 0; i < coarse.grid.size(); ++i) {
-    const std::ptrdiff_t cell = fine.cellAt(coarse.grid.centreX(i), coarse.grid.centreY(i));
-    const auto at = [&](const std::vector<std::uint8_t>& mask) {
-      return cell < 0 ? std::uint8_t{0} : mask[static_cast<std::size_t>(cell)];
-    };
-    coarse.open.push_back(at(region.open));
-    coarse.standable.push_back(at(region.standable));
-  }
-  return coarse;
-}
-
 std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
                                const std::function<bool()>& goOn) {
   std::vector<const SensorData*> features = chosenFeatures(robot, wish.queries);

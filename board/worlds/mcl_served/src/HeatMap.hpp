@@ -44,8 +44,4 @@ std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
 std::vector<const SensorData*> chosenFeatures(const Robot& robot,
                                               const std::vector<std::string>& queries);
 
-/// The same field in square cells that are a whole number of its own wide, so that there are
-/// @p most at most; one is open where its centre is.
-FieldRegion coarsened(const FieldRegion& region, std::size_t most);
-
 }  // namespace ortung

@@ -36,6 +36,11 @@ ORTUNG_API ExpectationMap expectationMap(const FieldRegion& region, const Sensor
 ORTUNG_API std::vector<double> mapHeadings(double headingStep,
                                            std::span<const SensorData* const> features);
 
+/// Returns the same field in square cells that are a whole number of its own wide, so that there
+/// are
+/// @p most at most, if that is at least 1; one is open where its centre is.
+ORTUNG_API FieldRegion coarsened(const FieldRegion& region, std::size_t most);
+
 /// Weighers of the present readings of features; readings that say nothing about poses have none.
 using Weighers = std::vector<std::shared_ptr<const Weigher>>;
 ORTUNG_API Weighers weighersOf(std::span<const SensorData* const> features);
