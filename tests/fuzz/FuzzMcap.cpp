@@ -81,5 +81,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   readMessage<PointCloud>(text);
   readMessage<DiagnosticArray>(text);
   readMessage<Words>(text);
+  readMessage<Twist>(text);
+  readMessage<TwistStamped>(text);
+  readMessage<RosClock>(text);
   return 0;
 }

@@ -79,6 +79,16 @@ TEST(MessageLayout, OfOdometry) {
   EXPECT_EQ(toCdr(odometry), layout.bytes());
 }
 
+TEST(MessageLayout, OfCommandsAndTheClock) {
+  Layout twist;
+  twist.f64({1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(toCdr(Twist{{1, 2, 3}, {4, 5, 6}}), twist.bytes());
+  Layout stamped;
+  stamped.header("base").f64({1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(toCdr(TwistStamped{{kStamp, "base"}, {{1, 2, 3}, {4, 5, 6}}}), stamped.bytes());
+  EXPECT_EQ(toCdr(RosClock{kStamp}), Layout().u32(3).u32(4).bytes());
+}
+
 TEST(MessageLayout, OfTransforms) {
   TfMessage tf;
   tf.transforms.push_back({{kStamp, "map"}, "odom", {{1, 2, 3}, {4, 5, 6, 7}}});

@@ -59,6 +59,20 @@ void fields(A& a, Is<Odometry> auto& m) {
   a(m.twistCovariance);
 }
 template <class A>
+void fields(A& a, Is<Twist> auto& m) {
+  a(m.linear);
+  a(m.angular);
+}
+template <class A>
+void fields(A& a, Is<TwistStamped> auto& m) {
+  a(m.header);
+  a(m.twist);
+}
+template <class A>
+void fields(A& a, Is<RosClock> auto& m) {
+  a.time(m.time);
+}
+template <class A>
 void fields(A& a, Is<TransformStamped> auto& m) {
   a(m.header);
   a(m.childFrame);

@@ -50,6 +50,9 @@ std::optional<M> fromRos1(std::string_view bytes, std::string& why) {
   template ORTUNG_API std::optional<M> fromRos1(std::string_view, std::string&);
 ORTUNG_ROS2_MESSAGE(LaserScan)
 ORTUNG_ROS2_MESSAGE(Odometry)
+ORTUNG_ROS2_MESSAGE(Twist)
+ORTUNG_ROS2_MESSAGE(TwistStamped)
+ORTUNG_ROS2_MESSAGE(RosClock)
 ORTUNG_ROS2_MESSAGE(TfMessage)
 ORTUNG_ROS2_MESSAGE(PoseStamped)
 ORTUNG_ROS2_MESSAGE(PoseWithCovarianceStamped)

@@ -60,6 +60,25 @@ struct Odometry {
   Covariance twistCovariance{};  ///< covariance of the velocities
 };
 
+/// A velocity that a robot is told, at /cmd_vel.
+struct Twist {
+  static constexpr std::string_view kType = "geometry_msgs/msg/Twist";
+  Vector3 linear;   ///< velocity in the robot's frame [m/s]
+  Vector3 angular;  ///< angular velocity [rad/s]
+};
+/// A velocity with time and frame, as Nav2 tells it by an option since Jazzy.
+struct TwistStamped {
+  static constexpr std::string_view kType = "geometry_msgs/msg/TwistStamped";
+  Header header;
+  Twist twist;
+};
+
+/// The simulated time, at /clock.
+struct RosClock {
+  static constexpr std::string_view kType = "rosgraph_msgs/msg/Clock";
+  std::int64_t time = 0;  ///< [ns], at least 0, below 2^31 s
+};
+
 /// The pose of a frame in its parent frame.
 struct TransformStamped {
   Header header;
