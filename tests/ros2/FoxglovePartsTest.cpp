@@ -156,6 +156,49 @@ TEST(FieldMap, WallsReachBeyondItsEdgesAndMayBePoints) {
   EXPECT_EQ(map->data[50 * 60 + 50], 100);
 }
 
+// A box of 0.6 m x 0.4 m, whose corners run either way round.
+TEST(FieldMap, HasSolidsAtTheHeightOfAScanner) {
+  for (const char* corners : {"0.025,0.025 0.625,0.025 0.625,0.425 0.025,0.425",
+                              "0.025,0.425 0.625,0.425 0.625,0.025 0.025,0.025"}) {
+    const Texts lines{std::string("solid z0_m=0 z1_m=0.5 ") + corners,
+                      "solid z0_m=0.8 z1_m=0.9 -0.5,-0.5 -0.5,-0.6 -0.6,-0.6", "solid 0,0 1,x"};
+    const auto low = mapOfField(parseBoardLine(kWorld), lines, {.height = 0.3});
+    ASSERT_TRUE(low);
+    EXPECT_EQ(std::count(low->data.begin(), low->data.end(), 100), 2 * 13 + 2 * 7);
+    EXPECT_EQ(low->data[30 * 60 + 30], 100);
+    EXPECT_EQ(low->data[38 * 60 + 42], 100);
+    const auto all = mapOfField(parseBoardLine(kWorld), lines);
+    ASSERT_TRUE(all);
+    EXPECT_GT(std::count(all->data.begin(), all->data.end(), 100),
+              std::count(low->data.begin(), low->data.end(), 100));
+  }
+}
+
+// The surfaces of a box from (-0.5, -0.5) to (0.5, 0.5) are edges of cells: those inside are
+// occupied, so that the map's surfaces are where a scanner sees them.
+TEST(FieldMap, OfAScannerIsOccupiedBehindSurfaces) {
+  for (const char* corners :
+       {"-0.5,-0.5 0.5,-0.5 0.5,0.5 -0.5,0.5", "-0.5,0.5 0.5,0.5 0.5,-0.5 -0.5,-0.5"}) {
+    const auto map =
+        mapOfField(parseBoardLine(kWorld), {std::string("solid z0_m=0 z1_m=0.5 ") + corners},
+                   {.isBehindSurfaces = true});
+    ASSERT_TRUE(map);
+    for (const int cell : {20, 39}) {  // from -0.5 to -0.45, and from 0.45 to 0.5
+      EXPECT_EQ(map->data[30 * 60 + cell], 100);
+      EXPECT_EQ(map->data[cell * 60 + 30], 100);
+    }
+    for (const int cell : {18, 19, 21, 38, 40, 41}) {
+      EXPECT_EQ(map->data[30 * 60 + cell], 0) << cell;
+      EXPECT_EQ(map->data[cell * 60 + 30], 0) << cell;
+    }
+  }
+  const auto wall = mapOfField(parseBoardLine(kWorld), {"wall x0_m=0 y0_m=-1 x1_m=0 y1_m=1"},
+                               {.isBehindSurfaces = true});
+  ASSERT_TRUE(wall);
+  EXPECT_EQ(wall->data[30 * 60 + 30], 100) << "a solid is on the right of the way";
+  EXPECT_EQ(wall->data[30 * 60 + 29], 0);
+}
+
 // 900 m x 900 m in cells of 5 cm would be 324 million: there are at most 131072, about 2.5 m wide.
 TEST(FieldMap, OfALargeFieldHasLargerCells) {
   const auto map = mapOfField(parseBoardLine("x_min_m=0 y_min_m=0 x_max_m=899 y_max_m=899"),

@@ -124,5 +124,19 @@ TEST(Field, IsDescribedAsTheWorldFileDrawsIt) {
   EXPECT_NEAR(longest, 12.0, 0.11);  // the touch line
 }
 
+TEST(Field, HasWhatStandsOnItAndIsNoWall) {
+  ServedSimulation world(ORTUNG_SOURCE_DIR "/maps/fields/arena.toml", {.noise = false});
+  const RunningBoard board(world, lockstepConfig());
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  std::vector<std::string> solids;
+  for (const std::string& line : linesOf(client, "DESCRIBE field"))
+    if (line.starts_with("solid ")) solids.push_back(line);
+  ASSERT_EQ(solids.size(), 9u);  // three boxes, a tub, a wedge and four posts, but no ball
+  // The box of 0.6 m x 0.4 m at (1.2, -1.3).
+  EXPECT_EQ(solids.front(),
+            "solid z0_m=0 z1_m=0.5 colour=brown 0.9,-1.5 1.5,-1.5 1.5,-1.1 0.9,-1.1");
+}
+
 }  // namespace
 }  // namespace ortung::test

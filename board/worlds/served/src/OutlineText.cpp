@@ -29,25 +29,44 @@ std::string coordinate(double metres) {
   return keyValue("", std::round(metres * 1e4) / 1e4).substr(2);  // behind " ="
 }
 
-std::string pieceText(const Primitive& piece, const std::string& which, const std::string& colour) {
-  std::string text = "outline" + which + keyValue("z0_m", piece.zLow) +
-                     keyValue("z1_m", piece.zHigh) +
+/// @param what what the line begins with
+std::string pieceText(const Primitive& piece, const std::string& what, const std::string& colour) {
+  std::string text = what + keyValue("z0_m", piece.zLow) + keyValue("z1_m", piece.zHigh) +
                      colourText(piece.colour.empty() ? colour : piece.colour);
   for (const Point2& corner : outlineOf(piece))
     text += " " + coordinate(corner.x) + "," + coordinate(corner.y);
   return text;
 }
 
+/// Whether its sides are lines "wall" already.
+bool isWall(const Primitive& piece) {
+  const bool isUpright = piece.kind == "wall" || piece.kind == "goal";
+  return isUpright && piece.shape == Primitive::Shape::kRectangle;
+}
+
 }  // namespace
 
 std::vector<std::string> outlineText(const RobotShape& shape) {
   std::vector<std::string> lines;
-  for (const Primitive& piece : shape.pieces) lines.push_back(pieceText(piece, "", shape.colour));
+  for (const Primitive& piece : shape.pieces)
+    lines.push_back(pieceText(piece, "outline", shape.colour));
   for (const Manipulator& manipulator : shape.manipulators)
     for (const ManipulatorState& state : manipulator.states)
       for (const Primitive& piece : state.pieces)
-        lines.push_back(pieceText(
-            piece, " manipulator=" + manipulator.name + " state=" + state.name, shape.colour));
+        lines.push_back(
+            pieceText(piece, "outline manipulator=" + manipulator.name + " state=" + state.name,
+                      shape.colour));
+  return lines;
+}
+
+std::vector<std::string> solidText(const Solids& solids) {
+  constexpr std::size_t kMost = 4096;
+  std::vector<std::string> lines;
+  for (const Primitive& piece : solids.primitives) {
+    if (isWall(piece) || !piece.isSolid() || piece.isMovable) continue;
+    if (lines.size() == kMost) break;
+    lines.push_back(pieceText(piece, "solid", ""));
+  }
   return lines;
 }
 

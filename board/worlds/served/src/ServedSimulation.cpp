@@ -377,7 +377,10 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
 }
 
 std::vector<std::string> ServedSimulation::field() const {
-  return fieldText(fieldModelOf(simulation().world()));
+  const SimWorld& world = simulation().world();
+  std::vector<std::string> lines = fieldText(fieldModelOf(world));
+  for (std::string& solid : solidText(world.solids())) lines.push_back(std::move(solid));
+  return lines;
 }
 
 std::vector<ServedFeature> ServedSimulation::truthFeatures() const { return Truth::features(); }
