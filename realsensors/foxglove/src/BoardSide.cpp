@@ -101,7 +101,7 @@ void FoxgloveSession::Parts::takeRobot(std::int64_t number, const std::string& n
   if (found == robots.end() || !reply.isOk()) return;
   RobotPart& part = found->second;
   const std::string own = name.empty() ? "robot" + std::to_string(number) : name;
-  part.robot = foxglove::describedRobot(reply.lines, isCrowded ? own : "");
+  part.robot = foxglove::describedRobot(reply.lines, {.robot = isCrowded ? own : ""});
   std::vector<std::uint32_t> fresh;
   for (const ros2::Topic& topic : part.robot->topics->topics()) {
     const std::uint32_t channel = channelFor(topic);

@@ -150,7 +150,7 @@ bool add(const Described& feature, SensorContainer& container) {
 }  // namespace
 
 std::unique_ptr<DescribedRobot> describedRobot(const std::vector<std::string>& lines,
-                                               const std::string& name) {
+                                               const ros2::RobotTopics::Options& options) {
   auto robot = std::make_unique<DescribedRobot>();
   const auto [names, features] = featuresIn(lines);
   std::vector<SensorId> others;
@@ -159,8 +159,7 @@ std::unique_ptr<DescribedRobot> describedRobot(const std::vector<std::string>& l
     robot->hasTruth |= feature.id.type == "groundTruth";
     if (!add(feature, robot->container)) others.push_back(feature.id);
   }
-  robot->topics = std::make_unique<ros2::RobotTopics>(robot->container,
-                                                      ros2::RobotTopics::Options{.robot = name});
+  robot->topics = std::make_unique<ros2::RobotTopics>(robot->container, options);
   for (const SensorId& id : others) robot->topics->addWords(id);
   return robot;
 }

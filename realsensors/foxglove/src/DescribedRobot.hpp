@@ -16,8 +16,8 @@ struct DescribedRobot {
   bool hasTruth = false;
 };
 
-/// @param lines of `DESCRIBE robot` @param name before its topics and frames; "": none
+/// @param lines of `DESCRIBE robot` @param options of its topics and frames
 std::unique_ptr<DescribedRobot> describedRobot(const std::vector<std::string>& lines,
-                                               const std::string& name);
+                                               const ros2::RobotTopics::Options& options);
 
 }  // namespace ortung::foxglove

@@ -161,13 +161,14 @@ RobotTopics::RobotTopics(const SensorContainer& container, const Options& option
     : parts_(std::make_unique<Parts>(container)) {
   Parts& p = *parts_;
   p.mapFrame = options.mapFrame;
+  p.frameStart = options.framePrefix;
   if (!options.robot.empty()) {
     p.frameStart = cleaned(options.robot) + "/";
     p.topicStart = "/" + cleaned(options.robot);
   }
   p.part = (options.robot.empty() ? "" : options.robot + ": ") + "localization";
-  p.odom = p.frameStart + "odom";
-  p.base = p.frameStart + "base_link";
+  p.odom = p.frameStart + options.odom;
+  p.base = p.frameStart + options.base;
   p.tfStatic = p.addTopic("/tf_static", TfMessage::kType, true);
   p.map = p.addTopic("/map", OccupancyGrid::kType, true);
   p.tf = p.addTopic("/tf", TfMessage::kType);

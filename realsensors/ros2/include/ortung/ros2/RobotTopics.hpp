@@ -54,6 +54,9 @@ class ORTUNG_API RobotTopics {
     MapFrame mapFrame = MapFrame::kBest;  ///< what gives the pose of the odometry frame
     /// Prefix of the names of topics and frames, for several robots at a time; "": none.
     std::string robot = {};
+    std::string base = "base_link", odom = "odom";  ///< frames of the robot and of its odometry
+    /// What the names of the robot's frames begin with, if there is no `robot`.
+    std::string framePrefix = {};
   };
   /// Gets a message. @param topic index into topics()
   using Sink = std::function<void(std::size_t topic, Timestamp stamp, std::string_view cdr)>;
