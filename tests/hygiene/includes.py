@@ -19,7 +19,7 @@ BIGGEST_SHARE = 0.2
 # Beginnings of headers that are not ours, and the files that may include them. What stands nowhere here is refused.
 FOREIGN = {
     r"Eigen/": r"^(?!.*/include/).*\.(cpp|hpp)$",
-    r"CLI/": r"^(app/(module|program)/.*|realsensors/ros2_live/OrtungRos2)\.cpp$",
+    r"CLI/": r"^(app/(module|program)/.*|realsensors/(ros2_live/OrtungRos2|ros2_robot/OrtungRos2Robot))\.cpp$",
     r"fast(dds|rtps)/": r"^realsensors/ros2_live/(DdsBytes|Participant(Parts)?|Service)\.(cpp|hpp)$",
     r"fmt/|spdlog/|stb/|dlib/": r"^app/",
     r"pybind11/": r"^python/",
