@@ -18,7 +18,7 @@ class Program:
 
     def __init__(self, path, root):
         self.path = path
-        files = [*pathlib.Path(root, "scripts").glob("*.py"), *pathlib.Path(root).glob("realsensors/ros2_live/OrtungRos2.cpp")]
+        files = [*pathlib.Path(root, "scripts").glob("*.py"), *pathlib.Path(root).glob("realsensors/ros2_*/OrtungRos2*.cpp")]
         scripts = [p.read_text() for p in files]
         self.others = set(OPTION.findall("\n".join(scripts))) | {"--preset"}  # of scripts and other programs, and CMake's
 
