@@ -38,8 +38,8 @@ test=(
   python3-pil
   # the Python package, its wheel, and what looks at its stubs
   python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
-  # robots of ROS 2: DDS, and another implementation of it with a generator of its own for the tests
-  libfastrtps-dev libfastcdr-dev cyclonedds-dev cyclonedds-tools
+  # robots of ROS 2: DDS, and for the tests another implementation of it with a generator of its own, and a dissector
+  libfastrtps-dev libfastcdr-dev cyclonedds-dev cyclonedds-tools tshark
   # tests of bags of ROS 1: its own recorder and messages
   python3-rosbag python3-nav-msgs python3-sensor-msgs python3-tf2-msgs
   # training of motion networks

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""long_run.py [--minutes 5] BIN  a robot of a simulation as a robot of ROS 2, localized by its map, is driven about for minutes, or an
+hour: can whoever hears a message look up map -> base at its stamp, as tf2 does, or would that extrapolate? BIN is the folder of the
+programs, those of the tests among them (build/dev/bin). No test runs this, since it is long; it ends with 1 if a look-up fails."""
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import robots
+
+KINDS = ("odom", "scan", "truth")
+
+
+class LookUps:
+    """Look-ups of map -> base at the stamps of messages, when they come; those that can't be answered yet wait for frames."""
+
+    def __init__(self):
+        self.frames = {"odom": robots.Transforms(), "base_link": robots.Transforms()}
+        self.waiting, self.off = [], []
+        self.at_once, self.later, self.before = ({kind: 0 for kind in KINDS} for _ in range(3))
+        self.clock, self.longest = 0, 0
+
+    def pose(self, stamp):
+        poses = [self.frames[name].at(stamp) for name in ("odom", "base_link")]
+        return robots.times(*poses) if all(poses) else None
+
+    def found(self, kind, stamp, words):
+        pose = self.pose(stamp)
+        if pose is None:
+            return False
+        if kind == "truth":
+            true = robots.pose_of(words[3:])
+            self.off.append(((pose[0] - true[0])**2 + (pose[1] - true[1])**2)**0.5)
+        return True
+
+    def take(self, words):
+        kind = words[0]
+        if kind == "clock":
+            self.clock = int(words[1])
+        elif kind == "tf":
+            self.frames[words[3]].add(int(words[1]), robots.pose_of(words[4:]))
+            for entry in [entry for entry in self.waiting if self.found(*entry[:3])]:
+                self.waiting.remove(entry)
+                self.later[entry[0]] += 1
+                self.longest = max(self.longest, self.clock - entry[3])
+        elif kind in KINDS:
+            stamp, in_map = int(words[1]), self.frames["odom"].stamps
+            if not in_map or stamp < in_map[0]:
+                self.before[kind] += 1  # nothing is told before the robot is found
+            elif self.found(kind, stamp, words):
+                self.at_once[kind] += 1
+            else:
+                self.waiting.append((kind, stamp, words, self.clock))
+
+    def report(self):
+        end = self.frames["base_link"].stamps[-1]
+        never = [entry for entry in self.waiting if entry[1] < end]
+        for kind in KINDS:
+            print("%-5s  before it was found %d, at once %d, once frames had come %d, never %d" % (
+                kind, self.before[kind], self.at_once[kind], self.later[kind], sum(entry[0] == kind for entry in never)))
+        self.off.sort()
+        print("the longest wait for frames: %.3f s of the robot's time" % (self.longest / 1e9))
+        if self.off:
+            print("map -> base beside the truth: median %.3f m, p95 %.3f m, most %.3f m of %d" % (
+                self.off[len(self.off) // 2], self.off[int(0.95 * len(self.off))], self.off[-1], len(self.off)))
+        return not never and bool(self.off)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--minutes", type=float, default=5.0)
+    parser.add_argument("bin", type=pathlib.Path)
+    a = parser.parse_args()
+    programs = {name: a.bin / name for name in ("ortung", "ortung-ros2", "ortung-ros2-robot", "cyclone_driver")}
+    domain = 1 + os.getpid() % 100
+    looks = LookUps()
+    with tempfile.TemporaryDirectory(prefix="ortung-long-run-") as name:
+        folder = pathlib.Path(name)
+        (folder / "rover.toml").write_text(robots.ROBOT)
+        variables = robots.environment(folder, domain)
+        with robots.running([programs["ortung"], "sim", robots.ARENA, "--listen", "0", "--seed", "3"], variables) as sim:
+            bridge = [programs["ortung-ros2-robot"], "--connect", "127.0.0.1:%d" % robots.port_of(sim), "--robot", folder / "rover.toml",
+                      "--start", "-2.3,0.2,0", "--ground-truth", "--distro", "jazzy"]
+            with robots.running(bridge, variables), robots.running(
+                    [programs["ortung-ros2"], "--base-frame", "base_link", "--folder", folder / "learned", "--distro", "jazzy"], variables) as localizer:
+                robots.wait_for_line(localizer, "localizing")
+                with subprocess.Popen([programs["cyclone_driver"], str(domain), "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                      env=variables) as driver:
+                    driver.stdin.write("wander %g\n" % (60 * a.minutes))
+                    driver.stdin.close()
+                    for line in driver.stdout:
+                        looks.take(line.split())
+        print(localizer.said[1], end="")
+    sys.exit(0 if looks.report() else 1)
+
+
+main()
