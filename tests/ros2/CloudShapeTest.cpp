@@ -134,6 +134,28 @@ TEST(CloudShape, TheRangeIsTheMeanOfTheNearestSurface) {
   EXPECT_NEAR(ranges(shape, cloudOf(seen(points, mount)))[4], 3.0, 1e-6);
 }
 
+// Of points that are a third of a beam beside its middle, on a slanted wall; at corners and where
+// there is a step, they stay.
+TEST(CloudShape, RangesAreThoseOfTheMiddleOfTheirBeams) {
+  const auto mount = poseOf(0, 0, 0.5);
+  CloudShape shape({.beams = 360}, mount);
+  std::vector<CloudPoint> points;
+  const auto wall = [](double bearing) { return 3.0 / std::cos(bearing - 0.8); };
+  for (int i = 180; i <= 240; ++i) {
+    const double bearing = -kPi + radians(1.0) * (i + (i % 2 == 0 ? 0.3 : 0.35));
+    const double range = wall(bearing) - (i > 220 ? 1.0 : 0.0);
+    points.push_back({range * std::cos(bearing), range * std::sin(bearing), 0.5});
+  }
+  const auto found = ranges(shape, cloudOf(seen(points, mount)));
+  const auto off = [&](std::size_t beam) {
+    return std::abs(found[beam] - wall(-kPi + radians(1.0) * static_cast<double>(beam)));
+  };
+  for (std::size_t beam = 181; beam < 220; ++beam) EXPECT_LT(off(beam), 1e-3) << beam;
+  EXPECT_GT(off(180), 5e-3) << "it has no neighbour";
+  const double there = -kPi + radians(1.0) * 220.3;
+  EXPECT_NEAR(found[220], wall(there), 1e-4) << "its neighbour is of something else";
+}
+
 TEST(CloudShape, ABeamHasSeenNothingOnlyWhereItsWholeWayWasInTheBand) {
   const CloudBand band{
       .beams = 8, .minHeight = 0.2, .maxHeight = 1.5, .minRange = 0.3, .maxRange = 10};

@@ -70,6 +70,7 @@ struct CloudShape::Block {
   alignas(64) Row late;                               ///< after the stamp [s]
   alignas(64) Row range;                              ///< in the plane [m]; 0: does not count
   alignas(64) std::array<std::int32_t, kBlock> beam;  ///< in [0, beams]
+  alignas(64) Row offset;                             ///< from the beam's middle [beams]
   Placing placing;                                    ///< at the sweep's beginning
   Placing change;                                     ///< of the placing, in a second
   CloudLayout::Sweep sweep;
@@ -174,6 +175,7 @@ void CloudShape::Block::measure(std::size_t count) {
     const float place = std::min((angle + kPi) * at.beamsPerRadian + 0.5F, at.beams);
     range[i] = counts ? length : 0.0F;
     beam[i] = static_cast<std::int32_t>(counts ? place : 0.0F);
+    offset[i] = place - 0.5F - static_cast<float>(beam[i]);
   }
 }
 
@@ -201,7 +203,8 @@ CloudShape::CloudShape(const CloudBand& band, const Eigen::Isometry3d& mount)
   band.check();
   const auto beams = static_cast<std::size_t>(band.beams);
   nearest_.resize(beams);
-  sums_.resize(beams);
+  means_.resize(beams);
+  offsets_.resize(beams);
   ranges_.resize(beams);
   counts_.resize(beams);
   isFree_.resize(beams);
@@ -256,7 +259,7 @@ void CloudShape::takeBlock(std::size_t count) {
       continue;
     }
     nearest_[beam] = std::min(nearest_[beam], range);
-    kept_[keptCount_++] = {beam, range};
+    kept_[keptCount_++] = {beam, range, block_->offset[i]};
   }
 }
 
@@ -289,28 +292,56 @@ std::span<const float> CloudShape::fit(const CloudLayout& cloud, const SweepMoti
 
 /// Returns the range of the nearest surface of each beam.
 std::span<const float> CloudShape::finish(std::string& why) {
-  std::fill(sums_.begin(), sums_.end(), 0.0F);
+  std::fill(means_.begin(), means_.end(), 0.0F);
+  std::fill(offsets_.begin(), offsets_.end(), 0.0F);
   std::fill(counts_.begin(), counts_.end(), 0U);
   const float slant = kSlant * static_cast<float>(kTurn) / static_cast<float>(band_.beams);
   for (std::size_t i = 0; i < keptCount_; ++i) {
-    const auto [beam, range] = kept_[i];
+    const auto [beam, range, offset] = kept_[i];
     const float behind = range - nearest_[beam];
     if (behind > kThickness + std::min(slant * nearest_[beam], kMostOfSlant)) continue;
-    sums_[beam] += behind;
+    means_[beam] += behind;
+    offsets_[beam] += offset;
     ++counts_[beam];
   }
   bool isAny = false;
   for (std::size_t beam = 0; beam < ranges_.size(); ++beam) {
-    if (counts_[beam] > 0)
-      ranges_[beam] = nearest_[beam] + sums_[beam] / static_cast<float>(counts_[beam]);
-    else
+    const auto count = static_cast<float>(counts_[beam]);
+    if (counts_[beam] > 0) {
+      means_[beam] = nearest_[beam] + means_[beam] / count;
+      offsets_[beam] /= count;
+    }
+    isAny = isAny || counts_[beam] > 0 || isFree_[beam] != 0;
+  }
+  why = kNoPoint;
+  if (!isAny) return {};
+  why.clear();
+  moveToMiddle();
+  return ranges_;
+}
+
+/// Moves ranges to the middle of their beams, along the line between the beams on both sides, if
+/// these are of one surface.
+void CloudShape::moveToMiddle() {
+  const std::size_t beams = ranges_.size();
+  const float slant = kSlant * static_cast<float>(kTurn) / static_cast<float>(beams);
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    if (counts_[beam] == 0) {
       ranges_[beam] = isFree_[beam] != 0 ? std::numeric_limits<float>::infinity()
                                          : std::numeric_limits<float>::quiet_NaN();
-    isAny = isAny || !std::isnan(ranges_[beam]);
+      continue;
+    }
+    ranges_[beam] = means_[beam];
+    const std::size_t before = (beam + beams - 1) % beams;
+    const std::size_t after = (beam + 1) % beams;
+    if (counts_[before] == 0 || counts_[after] == 0) continue;
+    const float rise = means_[after] - means_[before];
+    const float run = 2.0F + offsets_[after] - offsets_[before];  // at least 1
+    const float bend = means_[beam] - 0.5F * (means_[after] + means_[before]);
+    const float most = kThickness + std::min(2.0F * slant * means_[beam], kMostOfSlant);
+    if (std::abs(rise) <= most && std::abs(bend) <= most)
+      ranges_[beam] -= offsets_[beam] * rise / run;
   }
-  if (isAny) return ranges_;
-  why = kNoPoint;
-  return {};
 }
 
 }  // namespace ortung::ros2

@@ -45,7 +45,8 @@ struct SweepMotion {
 /// backwards in the robot's frame. Each beam has the range of the nearest surface among the points
 /// of its sector that are in the band of heights: the mean of the points behind the nearest one, up
 /// to 10 cm and what a wall at some 60 degrees has within the sector (30 cm at most), since the
-/// nearest of many noisy points would be too near.
+/// nearest of many noisy points would be too near. As these points are seldom in the middle of
+/// their sector, the range is moved to there along the surface that the neighbouring beams show.
 ///
 /// A beam without such a point is not valid (NaN), as rays that return nothing leave no points, or
 /// points without a direction: nobody knows what was there. Only if a point was seen beyond the
@@ -79,11 +80,13 @@ class CloudShape {
   struct Block;
   struct Kept {
     std::uint32_t beam;
-    float range;
+    float range;   ///< [m]
+    float offset;  ///< from the middle of the beam's sector [beams]
   };
   void place(const CloudLayout& cloud, const SweepMotion& motion);
   void takeBlock(std::size_t count);
   std::span<const float> finish(std::string& why);
+  void moveToMiddle();
 
   CloudBand band_;
   Eigen::Isometry3d mount_;
@@ -91,9 +94,9 @@ class CloudShape {
   std::unique_ptr<Block> block_;  ///< some points, a quantity in a row
   std::vector<Kept> kept_;        ///< all points in the band
   std::size_t keptCount_ = 0;
-  std::vector<float> nearest_, sums_, ranges_;  ///< by beam
-  std::vector<std::uint32_t> counts_;           ///< by beam
-  std::vector<std::uint8_t> isFree_;            ///< by beam: whether a ray has seen nothing
+  std::vector<float> nearest_, means_, offsets_, ranges_;  ///< by beam
+  std::vector<std::uint32_t> counts_;                      ///< by beam
+  std::vector<std::uint8_t> isFree_;  ///< by beam: whether a ray has seen nothing
 };
 
 }  // namespace ortung::ros2
