@@ -94,6 +94,7 @@ class Map:
         values = dict(line.split(":", 1) for line in self.yaml.splitlines() if ":" in line)
         self.edge = float(values["resolution"])
         self.origin = ast.literal_eval(values["origin"].strip())
+        assert self.origin[2] == 0, "a map that is not turned"
 
     def x(self, column):
         return self.origin[0] + (column + 0.5) * self.edge

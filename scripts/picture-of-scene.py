@@ -204,12 +204,22 @@ def draw_map(canvas, file):
     if not picture.exists():
         picture = picture.with_name(picture.name + ".gz")
     data = picture.read_bytes()
-    image = Image.open(io.BytesIO(gzip.decompress(data) if picture.suffix == ".gz" else data)).convert("L")
-    x, y = (float(n) for n in keys["origin"].strip("[]").split(",")[:2])
+    image = Image.open(io.BytesIO(gzip.decompress(data) if picture.suffix == ".gz" else data))
+    if image.mode.startswith("I"):  # 16 bits
+        image = image.convert("I").point(lambda value: value * (1 / 257))
+    image = image.convert("L").convert("RGB")
+    x, y, yaw = (float(n) for n in keys["origin"].strip("[]").split(","))
     cell = float(keys["resolution"]) * canvas.scale
-    size = (max(1, round(image.width * cell)), max(1, round(image.height * cell)))
     left, bottom = canvas.at((x, y))
-    canvas.image.paste(image.convert("RGB").resize(size), (round(left), round(bottom) - size[1]))
+    if yaw == 0:
+        size = (max(1, round(image.width * cell)), max(1, round(image.height * cell)))
+        canvas.image.paste(image.resize(size), (round(left), round(bottom) - size[1]))
+        return
+    # Of each pixel of the canvas, that of the map: turned back about the map's lower left corner.
+    c, s = math.cos(yaw) / cell, math.sin(yaw) / cell
+    back = (c, -s, s * bottom - c * left, s, c, image.height - s * left - c * bottom)
+    mask = Image.new("L", image.size, 255).transform(canvas.image.size, Image.Transform.AFFINE, back)
+    canvas.image.paste(image.transform(canvas.image.size, Image.Transform.AFFINE, back), (0, 0), mask)
 
 
 def draw_world(canvas, world, folder):

@@ -92,6 +92,17 @@ def main():
         picture, _ = drawn(folder, script, ortung, WORLD + LINE)
         assert at(1.0, -1.0) == (47, 107, 60), "lines are painted on grass"
 
+        # 8 x 8 m of floor, one of its cells of 0.5 m black and one unknown: 8 and 5 cells along the rows, 4 and 10 up. Turned by a
+        # quarter, rows go up and columns to the left.
+        cells = bytearray([254] * 256)
+        cells[16 * (15 - 4) + 8], cells[16 * (15 - 10) + 5] = 0, 205
+        (folder / "map.pgm").write_bytes(b"P5 16 16 255\n" + cells)
+        for origin, places in (("-4, -4, 0", ((0.25, -1.75), (-1.25, 1.25))), ("4, -4, 1.5707963", ((1.75, 0.25), (-1.25, -1.25)))):
+            (folder / "map.yaml").write_text("image: map.pgm\nresolution: 0.5\norigin: [%s]\n" % origin)
+            picture, _ = drawn(folder, script, ortung, WORLD + '[[grid]]\nmap = "map.yaml"\n')
+            seen = [at(*place)[0] for place in (*places, (2.25, -1.75))]
+            assert seen == [0, 205, 254], "a map at %s: %s" % (origin, seen)
+
 
 if __name__ == "__main__":
     main()

@@ -46,7 +46,7 @@ void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
       "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
   for (std::size_t row = map.height; row-- > 0;) {
     for (std::size_t column = 0; column < map.width; ++column) {
-      const int value = map.data[row * map.width + column];
+      const std::int8_t value = map.data[row * map.width + column];
       const bool isKnown = value >= 0 && value <= kOccupiedTo;
       picture += isKnown && value >= kOccupiedFrom ? kOccupied
                  : isKnown && value <= kFreeTo     ? kFree
