@@ -335,12 +335,14 @@ TEST_F(BagOptions, MapsLieOnTheFloorAndAreComplete) {
            std::string::npos;
   };
   OccupancyGrid turned = map;
-  turned.origin.orientation = {0, 0, 0.1, 1};
-  EXPECT_EQ(complaint("/map", turned), "found no reading, expected at least one");
+  for (const Quaternion& q : {Quaternion{0, 0, 0.1, 1}, {0, 0, -3, 0}, {0, 0, 0, 0}}) {
+    turned.origin.orientation = q;
+    EXPECT_EQ(complaint("/map", turned), "found no reading, expected at least one");
+  }
   for (const Quaternion& q : {Quaternion{0.1, 0, 0, 1},
                               {0, 0.1, 0.5, 1},
                               {1, 0, 0, 0},
-                              {0, 0, 0, 0},
+                              {1e-300, 0, 0, 0},
                               {0, 0, std::nan(""), 1}}) {
     turned.origin.orientation = q;
     EXPECT_TRUE(refused(turned)) << q.x << " " << q.y << " " << q.z << " " << q.w;

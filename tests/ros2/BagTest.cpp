@@ -163,6 +163,11 @@ TEST_F(BagSource, MapsBecomeWorlds) {
   const std::string text = readBytes(folder_.path() / "w.yaml");
   const std::string start = "origin: [-1.0, 2.0, ";
   EXPECT_NEAR(std::stod(text.substr(text.find(start) + start.size())), 0.6, 1e-12) << text;
+  map.origin.orientation = {0.0, 0.0, 0.0, 0.0};
+  BagMaker left;  // without a rotation, as some write it
+  left.add("/map", map).add("/odom", odometryAt(0, 0, 0));
+  makeSource(write(left))->writeWorld(folder_.path() / "w.toml");
+  EXPECT_EQ(readBytes(folder_.path() / "w.yaml"), yaml);
   map.data.pop_back();
   BagMaker torn;
   torn.add("/map", map);

@@ -16,19 +16,27 @@ namespace {
 /// Returns how much the normal of the floor is turned away from upright, as a cosine.
 double uprightness(const Quaternion& q) {
   const double length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  if (length == 0.0) return 1.0;  // some leave out the rotation
   return 1.0 - 2.0 * (q.x * q.x + q.y * q.y) / length;
+}
+
+/// Returns the pose of the lower left corner. Some leave out the rotation, all zeros: none.
+Pose originOf(const OccupancyGrid& map) {
+  Pose origin = map.origin;
+  const Quaternion& q = origin.orientation;
+  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) origin.orientation = {0, 0, 0, 1};
+  return origin;
 }
 
 }  // namespace
 
 std::string whyNoWorld(const OccupancyGrid& map) {
-  const Pose2 origin = toPose2(map.origin);
+  const Pose place = originOf(map);
+  const Pose2 origin = toPose2(place);
   constexpr double kLevel = 0.9998;  // cosine of some degree
   const bool isGrid = map.resolution > 0.0F && map.resolution <= 100.0F && isPlausible(origin) &&
                       map.width > 0 && map.height > 0 &&
                       map.data.size() / map.width == map.height && map.data.size() % map.width == 0;
-  if (isGrid && uprightness(map.origin.orientation) >= kLevel) return "";
+  if (isGrid && uprightness(place.orientation) >= kLevel) return "";
   return "found a map of " + std::to_string(map.width) + " x " + std::to_string(map.height) +
          " cells of " + std::to_string(map.resolution) + " m with " +
          std::to_string(map.data.size()) + " values, turned by " + std::to_string(origin.theta) +
@@ -53,7 +61,7 @@ void writeWorldOf(const OccupancyGrid& map, const std::filesystem::path& file) {
                                                    : kUnknown;
     }
   }
-  const double yaw = toPose2(map.origin).theta;
+  const double yaw = toPose2(originOf(map)).theta;
   std::filesystem::path image = file;
   image.replace_extension(".pgm");
   std::filesystem::path yaml = file;
