@@ -5,12 +5,16 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "LiveReadings.hpp"
 #include "MapWorld.hpp"
+#include "ortung/core/SensorContainer.hpp"
+#include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/OdometryData.hpp"
+#include "ortung/formats/PoseFixData.hpp"
 #include "ortung/formats/ScanData.hpp"
 
 namespace {
@@ -114,7 +118,7 @@ std::string imuOf(Input& in) {
 }
 
 void takeOne(Input& in, LiveReadings& readings) {
-  switch (in.take<std::uint8_t>() % 12) {
+  switch (in.take<std::uint8_t>() % 14) {
     case 0:
       return readings.takeScan(0, in.piece());
     case 1:
@@ -137,9 +141,29 @@ void takeOne(Input& in, LiveReadings& readings) {
       return readings.takeImu(in.piece());
     case 11:
       return readings.takeImu(imuOf(in));
+    case 12:
+      return readings.takeFeature(0, in.piece());
+    case 13:
+      return readings.takeFeature(1, in.piece());
     default:
       return readings.takeOdometry(odometryOf(in));
   }
+}
+
+/// The features that messages fill as they are.
+const ortung::SensorContainer& features() {
+  static const auto* const kAll = [] {
+    auto* all = new ortung::SensorContainer;
+    all->add(std::make_unique<ortung::ConeData>(ortung::SensorId{"front", "sonar", "range"},
+                                                ortung::Pose2{}, ortung::ConeData::Config{}));
+    all->add(std::make_unique<ortung::PoseFixData>(ortung::SensorId{"marker", "fix", "pose"},
+                                                   ortung::PoseFixData::Config{}));
+    return all;
+  }();
+  return *kAll;
+}
+const ortung::SensorData& featureOf(const ortung::SensorId& id) {
+  return *features().findExactly(id);
 }
 
 /// What comes out can be set in a container, and comes in the order of time.
@@ -154,7 +178,9 @@ void takeAll(LiveReadings& readings, const ortung::ScanData::Config& scanner) {
     if (moment->readings.empty()) return;
     for (const ortung::Message& reading : moment->readings) {
       if (reading.stamp != moment->readings.front().stamp) std::abort();
-      if (reading.id.type != "LRF")
+      if (reading.id.type == "sonar" || reading.id.type == "fix")
+        featureOf(reading.id).checkData(reading.words);
+      else if (reading.id.type != "LRF")
         odometry.checkData(reading.words);
       else
         (reading.id.model == "lidar" ? cloud : scan).checkData(reading.words);
@@ -170,6 +196,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.scanners = {{"scan", {"laser", "LRF", "scan"}, 5, 10.0}};
   const SensorId lidar{"lidar", "LRF", "scan"};
   options.lidars = {{"points", lidar, {.beams = 8, .minHeight = -1.0}}};
+  options.features = {liveFeatureOf(features(), "sonar=front/sonar/range", "map"),
+                      liveFeatureOf(features(), "marker=marker/fix/pose", "map")};
   options.odometry = {"odometry", "odometry", "pose"};
   const auto kind = in.take<std::uint8_t>();
   options.followsFrames = kind % 2 == 1;

@@ -20,7 +20,7 @@ BIGGEST_SHARE = 0.2
 FOREIGN = {
     r"Eigen/": r"^(?!.*/include/).*\.(cpp|hpp)$",
     r"CLI/": r"^(app/(module|program)/.*|realsensors/(ros2_live/OrtungRos2|ros2_robot/OrtungRos2Robot))\.cpp$",
-    r"fast(dds|rtps)/": r"^realsensors/ros2_live/(DdsBytes|Participant(Parts)?|Service)\.(cpp|hpp)$",
+    r"fast(dds|rtps)/": r"^realsensors/ros2_live/dds/(DdsBytes|Participant(Parts)?|Service)\.(cpp|hpp)$",
     r"fmt/|spdlog/|stb/|dlib/": r"^app/",
     r"pybind11/": r"^python/",
     r"toml\+\+/": r"^(container/robot/src|app/sweep)/",
@@ -34,7 +34,7 @@ FOREIGN = {
     r"boost/math/": r"^app/report/",
     r"boost/(iostreams|archive)": r"^(app/|realsensors/core/src/|sim/src/world/)",
     r"yaml-cpp/": r"^(app/images|sim/src/world)/"
-    r"|^realsensors/(ros2/plugins/BagFolder|ros2_live/(AmclParameters|ParamsFile))\.cpp$",
+    r"|^realsensors/(ros2/plugins/BagFolder|ros2_live/node/(AmclParameters|ParamsFile))\.cpp$",
     r"sqlite3\.h": r"^realsensors/ros2/plugins/Db3File\.cpp$",
     r"bzlib\.h": r"^realsensors/ros2/plugins/Bzip2\.cpp$",
     r"png\.h": r"^(app/|sim/src/world/)",

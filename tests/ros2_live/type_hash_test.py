@@ -82,7 +82,7 @@ def main():
         for name, digest in sorted(hashes.items()):
             print('    {"%s",\n     "%s"},' % (name, digest))
         return
-    told = dict(re.findall(r'\{"(\w+/msg/\w+)",\s*"([0-9a-f]{64})"\}', (root / "realsensors/ros2_live/TypeHashes.cpp").read_text()))
+    told = dict(re.findall(r'\{"(\w+/msg/\w+)",\s*"([0-9a-f]{64})"\}', (root / "realsensors/ros2_live/dds/TypeHashes.cpp").read_text()))
     for name, digest in PUBLISHED.items():
         if hashes[name] != digest:
             sys.exit("failed: %s has %s, published is %s" % (name, hashes[name], digest))

@@ -105,7 +105,7 @@ def wait_for(file, topics):
 
 
 def main():
-    hashes = dict(re.findall(r'\{"(\w+/msg/\w+)",\s*"([0-9a-f]{64})"\}', (root / "realsensors/ros2_live/TypeHashes.cpp").read_text()))
+    hashes = dict(re.findall(r'\{"(\w+/msg/\w+)",\s*"([0-9a-f]{64})"\}', (root / "realsensors/ros2_live/dds/TypeHashes.cpp").read_text()))
     with tempfile.TemporaryDirectory(prefix="ortung-wire-") as name:
         folder = pathlib.Path(name)
         (folder / "rover.toml").write_text(robots.ROBOT)
