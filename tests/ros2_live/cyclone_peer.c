@@ -9,7 +9,8 @@
 //   map FILE.pgm RESOLUTION X Y YAW      as map_server does with black, white and grey
 //   sample scan ... or cloud ...     what `ready` says meanwhile
 //   ready                            goes on once everybody is there
-// It prints "said STAMP_NS AT" of odometry, "matched SECONDS" once all it needs is there, "node
+// It prints "said STAMP_NS AT" of odometry, "scanned STAMP_NS AT" of scans, "matched SECONDS" once
+// all it needs is there, "node
 // ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
 #define _GNU_SOURCE
 #include <dds/dds.h>
@@ -93,10 +94,10 @@ static void print_tf(const void* sample) {
 }
 static void print_pose(const void* sample) {
   const geometry_msgs_msg_dds__PoseWithCovarianceStamped_* m = sample;
-  printf("pose %lld %s %.17g %.17g %.17g %.17g %.6g %.6g\n", nanoseconds(&m->header.stamp),
+  printf("pose %lld %s %.17g %.17g %.17g %.17g %.6g %.6g %.6f\n", nanoseconds(&m->header.stamp),
          m->header.frame_id, m->pose.pose.position.x, m->pose.pose.position.y,
          m->pose.pose.orientation.z, m->pose.pose.orientation.w, m->pose.covariance[0],
-         m->pose.covariance[35]);
+         m->pose.covariance[35], now());
 }
 static void print_particles(const void* sample) {
   const nav2_msgs_msg_dds__ParticleCloud_* m = sample;
@@ -196,6 +197,7 @@ static void say_scan(dds_entity_t scans, const char* line) {
   m.angle_max = m.angle_min + (float)(count - 1) * m.angle_increment;
   m.ranges._length = m.ranges._maximum = count, m.ranges._buffer = ranges;
   must(dds_write(scans, &m), "scan");
+  printf("scanned %lld %.6f\n", stamp, now());
 }
 
 // As many drivers lay points out: coordinates, and a word that is no coordinate.

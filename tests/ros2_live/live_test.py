@@ -202,6 +202,15 @@ def check(heard, expected, lines, said, tolerance=1e-4, asked=0):  # digits of t
             off.append(math.hypot(float(x) - pose[0], float(y) - pose[1]))
     print("%d maps of likelihoods, best at most %.2f m from the robot" % (len(maps), max(off, default=0)))
     expect(maps and sorted(off)[len(off) // 2] < 0.3, "likelihoods %s" % off)
+    # A scan counts once odometry of its time is there, too.
+    scanned, took = {int(stamp): float(at) for stamp, at in of("scanned")}, []
+    for stamp, *_, at in poses:
+        covered = [when for odometry, when in said_at.items() if odometry >= int(stamp)]
+        if int(stamp) in scanned and covered:
+            took.append(float(at) - max(scanned[int(stamp)], min(covered)))
+    if took:
+        print("from a scan to its pose: median %.1f ms, p95 %.1f ms, most %.1f ms" % (
+            *[1000 * sorted(took)[int(share * (len(took) - 1))] for share in (0.5, 0.95, 1.0)],))
     check_transforms(of("tf"), poses, [line.split() for line in lines if line.startswith("odom")])
     expect(all(name == "amcl" for _, _, name, *_ in of("diagnostics")) and of("diagnostics"), "diagnostics name the node")
 
