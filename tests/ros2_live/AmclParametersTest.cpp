@@ -110,6 +110,8 @@ TEST(AmclParameters, RefusesWhatAmclHasNot) {
   EXPECT_NE(why("alpha1", ".nan").find("expected 0 to 100"), std::string::npos);
   EXPECT_NE(why("tf_broadcast", "1").find("expected true or false"), std::string::npos);
   EXPECT_NE(why("base_frame_id", "\"a\\nb\"").find("several lines"), std::string::npos);
+  EXPECT_NE(why("robot_model_type", "stationary").find("OmniMotionModel"), std::string::npos);
+  EXPECT_EQ(why("robot_model_type", "omnidirectional"), "") << "as it was called before";
   EXPECT_EQ(why("alpha1", "1"), "") << "a whole number is a number";
   EXPECT_EQ(why("qos_overrides./tf.publisher.depth", "7"), "") << "of any node";
   EXPECT_EQ(parameters.get("max_particles"), Value(std::int64_t{2000})) << "unchanged";

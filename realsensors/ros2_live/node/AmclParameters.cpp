@@ -149,7 +149,15 @@ Table table() {
   return all;
 }
 
-bool isOmni(const std::string& model) { return model.find("mni") != model.npos; }
+/// Nav2's names of a robot that moves in any direction, older ones and Beluga's.
+bool isOmni(std::string_view model) {
+  return model == "nav2_amcl::OmniMotionModel" || model == "omnidirectional" ||
+         model == "omnidirectional_drive";
+}
+bool isDifferential(std::string_view model) {
+  return model == "nav2_amcl::DifferentialMotionModel" || model == "differential" ||
+         model == "differential_drive";
+}
 
 /// Parameters that any node may have, and that are for others than it.
 bool isForRos(std::string_view name) { return name.starts_with("qos_overrides."); }
@@ -249,6 +257,10 @@ void AmclParameters::check(const std::string& name, const Value& value) {
       throw std::invalid_argument(where +
                                   "found a text of several lines or of more than 4096 "
                                   "bytes, expected a name");
+    if (name == "robot_model_type" && !isOmni(*text) && !isDifferential(*text))
+      throw std::invalid_argument(where + "is '" + *text +
+                                  "', expected nav2_amcl::DifferentialMotionModel or "
+                                  "nav2_amcl::OmniMotionModel");
     return;
   }
   if (std::holds_alternative<bool>(fitting)) return;
