@@ -1,5 +1,7 @@
 #include "ortung/ros2/Messages.hpp"
 
+#include <type_traits>
+
 #include "Cdr.hpp"
 #include "Ros1.hpp"
 
@@ -43,10 +45,11 @@ std::optional<M> fromRos1(std::string_view bytes, std::string& why) {
   return readWith<M>(Ros1Reader(bytes), why);
 }
 
-#define ORTUNG_ROS2_MESSAGE(M)                                                  \
-  template ORTUNG_API std::string toCdr(const M&);                              \
-  template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&); \
-  template ORTUNG_API bool fromCdr(std::string_view, M&, std::string&);         \
+#define ORTUNG_ROS2_MESSAGE(M)                                                       \
+  template ORTUNG_API std::string toCdr(const M&);                                   \
+  template ORTUNG_API std::optional<M> fromCdr(std::string_view, std::string&);      \
+  template ORTUNG_API bool fromCdr(std::string_view, std::add_lvalue_reference_t<M>, \
+                                   std::string&);                                    \
   template ORTUNG_API std::optional<M> fromRos1(std::string_view, std::string&);
 ORTUNG_ROS2_MESSAGE(LaserScan)
 ORTUNG_ROS2_MESSAGE(Odometry)
