@@ -46,7 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert command[0] == "ortung-ros2", command
     names = [word.split(":=")[1] for word in command if word.startswith("__node:=")]
     assert names == ["amcl"] and "amcl" in manager.keys["parameters"][0]["node_names"], (names, manager.keys)
-    environment = {**os.environ, "ROS_DOMAIN_ID": str(1 + os.getpid() % 100), "ROS_LOCALHOST_ONLY": "1", "HOME": folder, "ROS_DISTRO": "jazzy"}
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(216 + os.getpid() % 10), "ROS_LOCALHOST_ONLY": "1", "HOME": folder, "ROS_DISTRO": "jazzy"}
     running = subprocess.Popen([node, *command[1:]], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     said = ""
     for line in running.stdout:

@@ -75,7 +75,7 @@ def main():
     parser.add_argument("bin", type=pathlib.Path)
     a = parser.parse_args()
     programs = {name: a.bin / name for name in ("ortung", "ortung-ros2", "ortung-ros2-robot", "cyclone_driver")}
-    domain = 1 + os.getpid() % 100
+    domain = 226 + os.getpid() % 7
     looks = LookUps()
     with tempfile.TemporaryDirectory(prefix="ortung-long-run-") as name:
         folder = pathlib.Path(name)

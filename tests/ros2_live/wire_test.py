@@ -15,7 +15,7 @@ import robots
 from robots import expect
 
 root, ortung, localizer, bridge = map(pathlib.Path, sys.argv[1:])
-DOMAIN = 1 + os.getpid() % 100  # one of the test's own
+DOMAIN = 201 + os.getpid() % 15  # each test has domains of its own
 WRITER, READER = "03", "04"     # kinds of endpoints without a key
 RELIABLE, BEST_EFFORT, LATCHED, VOLATILE = 2, 1, 1, 0
 # What is offered and read: type, reliability and durability.
