@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <stdexcept>
 
@@ -240,6 +241,7 @@ void LiveLocalization::tellDiagnostics() {
   if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_ || !isActive_)
     return;
   toldStatus_ = track->sequence();
+  sayStatus(static_cast<const TrackData*>(track)->reading().status);
   diagnostics_(toCdr(diagnosticsMessage(static_cast<const TrackData*>(track)->reading(),
                                         static_cast<const ProtectionData*>(bound)->reading(),
                                         options_.name, {nanoseconds(track->stamp()), ""})));
@@ -273,6 +275,47 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
     transform_.correct(here->smooth * inverse(*moment.inOdometry));
 }
 
+/// Tells on the terminal when the robot was found, and when it is lost.
+void LiveLocalization::sayStatus(TrackStatus status) {
+  const bool isLost = status == TrackStatus::kLost;
+  if (isFound_ ? !isLost : status != TrackStatus::kTracking) return;
+  isFound_ = !isLost;
+  const auto here = localization_->mcl().estimate();
+  std::cout << std::fixed << std::setprecision(2) << "ortung-ros2: the robot is "
+            << (isLost ? "lost, last" : "found") << " at " << here.pose.x << ", " << here.pose.y
+            << " m, " << std::setprecision(0) << here.pose.theta / kDegree << " degrees"
+            << std::defaultfloat << '\n'
+            << std::flush;
+}
+
+/// Names the topics at which nothing has come since the last report, once each time.
+void LiveLocalization::reportSilence() {
+  std::vector<std::string> topics = {"odometry"};
+  for (const auto* const list : {&options_.scans, &options_.clouds, &options_.features})
+    for (const std::string& text : *list) topics.push_back(topicOf(text));
+  const auto taken = readings_.taken();
+  for (const std::string& topic : topics) {
+    const auto found = taken.find(topic);
+    const std::uint64_t count = found == taken.end() ? 0 : found->second;
+    const bool isSilent = count == counts_[topic];
+    counts_[topic] = count;
+    if (isSilent && !isSilent_[topic]) {
+      const bool isFrame = topic == "odometry" && options_.odometry == "tf";
+      const std::string& name = topic == "odometry" ? options_.odometry : topic;
+      std::cerr << "ortung-ros2: nothing comes "
+                << (isFrame ? "as the transform " + options_.odom + " -> " + options_.base
+                            : "at " + (node_ != nullptr ? node_->wholeName(name) : name))
+                << '\n';
+    }
+    isSilent_[topic] = isSilent;
+  }
+  if (const std::string other = readings_.otherBase(); !other.empty() && !hasToldBase_) {
+    hasToldBase_ = true;
+    std::cerr << "ortung-ros2: odometry is of the frame " << other << ", not of " << options_.base
+              << " (--base-frame?)" << '\n';
+  }
+}
+
 void LiveLocalization::report() {
   auto wrong = readings_.leftOut();
   if (node_ != nullptr) {
@@ -299,6 +342,7 @@ void LiveLocalization::run(const std::function<bool()>& goOn) {
     if (Seconds(now - reported).count() >= options_.reportSeconds) {
       reported = now;
       report();
+      reportSilence();
     }
     if (Seconds(now - saved).count() >= options_.saveSeconds) {
       saved = now;

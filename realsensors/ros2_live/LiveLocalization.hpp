@@ -73,6 +73,8 @@ class LiveLocalization {
   void tellDiagnostics();
   void followOdometry();
   void report();
+  void reportSilence();
+  void sayStatus(TrackStatus status);
   void saveBelief();
 
   Options options_;
@@ -89,6 +91,9 @@ class LiveLocalization {
   std::optional<Message> lastOdometry_;  ///< that the localization has
   std::uint64_t toldStatus_ = 0;         ///< sequence of the status that diagnostics had last
   std::map<std::string, std::uint64_t> reported_;
+  std::map<std::string, std::uint64_t> counts_;  ///< of readings, at the last report
+  std::map<std::string, bool> isSilent_;         ///< topics, by then
+  bool hasToldBase_ = false, isFound_ = false;
 };
 
 }  // namespace ortung::ros2

@@ -65,8 +65,8 @@ bool LiveNode::goOnWaiting() {
   const auto now = std::chrono::steady_clock::now();
   constexpr std::chrono::seconds kBetween{5};
   if (now - told_ >= kBetween) {
-    if (!missing_.empty())
-      std::cout << "ortung-ros2: waiting for " << missing_ << '\n' << std::flush;
+    if (const std::string missing = setup_->missing(); !missing.empty())
+      std::cout << "ortung-ros2: waiting for " << missing << '\n' << std::flush;
     told_ = now;
   }
   return !isStopped_();
@@ -80,13 +80,11 @@ void LiveNode::writeRobot() {
 /// @return the tables; nothing if the program was told to stop
 std::optional<std::filesystem::path> LiveNode::learn() {
   const auto goOn = [this] { return goOnWaiting(); };
-  missing_ = "the map at " + options_.map;
   if (!setup_->waitForMap(goOn)) return std::nullopt;
   const std::filesystem::path world = options_.folder / "map.toml";
   std::filesystem::path& robot = options_.localization.localization.robot;
   setup_->writeWorld(world);
   if (robot.empty()) {
-    missing_ = "scans";
     if (!setup_->waitForScanners(goOn)) return std::nullopt;
     robot = options_.folder / "robot.toml";
     writeRobot();
@@ -95,7 +93,6 @@ std::optional<std::filesystem::path> LiveNode::learn() {
     for (std::string& cloud : options_.localization.clouds)
       if (cloud.find('=') == cloud.npos) cloud += "=" + LiveSetup::featureOf(cloud);
   }
-  missing_.clear();
   auto tables = options_.folder / ("map" + std::to_string(++learned_ % 2) + ".ortung");
   if (!learnTables(world, robot, tables, goOn)) return std::nullopt;
   return tables;

@@ -58,7 +58,6 @@ class LiveNode {
   mutable std::mutex mutex_;  ///< for wanted_
   std::optional<AmclSettings> wanted_;
   std::function<bool()> isStopped_;
-  std::string missing_;
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
   std::size_t learned_ = 0;  ///< number of maps
 

@@ -110,6 +110,7 @@ void LiveReadings::takeFeature(std::size_t feature, std::string_view cdr) {
 void LiveReadings::putScan(Message reading, const std::string& topic) {
   if (newestOdometry_ && reading.stamp > *newestOdometry_ + kMostAhead)
     return leaveOut(topic + ": more than 1 s ahead of odometry");
+  ++taken_[topic];
   newestScan_ = std::max(newestScan_.value_or(reading.stamp), reading.stamp);
   put(std::move(reading), std::nullopt);
   arrived_.notify_all();
@@ -173,6 +174,7 @@ void LiveReadings::takeImu(std::string_view cdr) {
 
 void LiveReadings::addOdometry(Timestamp stamp, const Pose2& pose,
                                std::vector<std::uint32_t> words) {
+  ++taken_["odometry"];
   put({stamp, options_.odometry, std::move(words)}, pose);
   newestOdometry_ = std::max(newestOdometry_.value_or(stamp), stamp);
   arrived_.notify_all();
@@ -183,6 +185,8 @@ void LiveReadings::takeOdometry(std::string_view cdr) {
   const auto moved = fromCdr<Odometry>(cdr, why);
   const std::lock_guard lock(mutex_);
   if (!moved) return leaveOut("odometry: no message: " + why);
+  if (!moved->childFrame.empty() && moved->childFrame != options_.base)
+    otherBase_ = moved->childFrame;
   const Pose2 pose = toPose2(moved->pose);
   const double forward = moved->linear.x;
   const double left = moved->linear.y;
@@ -281,6 +285,16 @@ void LiveReadings::stop() {
 std::optional<Timestamp> LiveReadings::newestOdometry() const {
   const std::lock_guard lock(mutex_);
   return newestOdometry_;
+}
+
+std::map<std::string, std::uint64_t> LiveReadings::taken() const {
+  const std::lock_guard lock(mutex_);
+  return taken_;
+}
+
+std::string LiveReadings::otherBase() const {
+  const std::lock_guard lock(mutex_);
+  return otherBase_;
 }
 
 std::map<std::string, std::uint64_t> LiveReadings::leftOut() const {

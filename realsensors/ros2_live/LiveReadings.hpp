@@ -83,6 +83,10 @@ class LiveReadings {
 
   /// The newest odometry that has arrived, which may be ahead of the moments.
   std::optional<Timestamp> newestOdometry() const;
+  /// How many readings were taken of each topic; of odometry under "odometry".
+  std::map<std::string, std::uint64_t> taken() const;
+  /// The frame of the robot that odometry tells, if it is another one than the robot's.
+  std::string otherBase() const;
   /// What was left out, in words and how often.
   std::map<std::string, std::uint64_t> leftOut() const;
 
@@ -128,7 +132,8 @@ class LiveReadings {
   std::string imuFrame_;
   FrameTree frames_;
   PoseOdometry followed_;
-  std::map<std::string, std::uint64_t> leftOut_;
+  std::map<std::string, std::uint64_t> leftOut_, taken_;
+  std::string otherBase_;
 };
 
 }  // namespace ortung::ros2

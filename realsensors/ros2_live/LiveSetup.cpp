@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostComplaints = 32;
 constexpr std::chrono::milliseconds kLook{100};  ///< between questions whether to go on
-constexpr std::chrono::seconds kPatience{2};     ///< for frames of scanners
+constexpr std::size_t kMostFrames = 4096;
 
 /// A topic as part of a feature's name.
 std::string cleaned(const std::string& topic) {
@@ -34,11 +34,15 @@ std::string cleaned(const std::string& topic) {
 
 LiveSetup::LiveSetup(Options options, Participant& node)
     : options_(std::move(options)),
+      node_(node),
       scans_(options_.scans.size()),
       cloudFrames_(options_.clouds.size()) {
   node.subscribe(options_.map, OccupancyGrid::kType, Qos::kLatched,
                  [this](std::string_view cdr) { takeMap(cdr); });
   node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
+                 [this](std::string_view cdr) { takeFrames(cdr); });
+  // Some robots tell mounts again and again, with all that moves.
+  node.subscribe("/tf", TfMessage::kType, Qos::kDefault,
                  [this](std::string_view cdr) { takeFrames(cdr); });
   for (std::size_t i = 0; i < options_.scans.size(); ++i)
     node.subscribe(options_.scans[i], LaserScan::kType, Qos::kSensor,
@@ -108,7 +112,8 @@ void LiveSetup::takeFrames(std::string_view cdr) {
   const auto all = fromCdr<TfMessage>(cdr, why);
   const std::lock_guard lock(mutex_);
   if (!all) return complain("/tf_static: " + why);
-  for (const TransformStamped& one : all->transforms) frames_.add(one, true);
+  for (const TransformStamped& one : all->transforms)
+    if (frames_.size() < kMostFrames || frames_.hasFrame(one.childFrame)) frames_.add(one, true);
   arrived_.notify_all();
 }
 
@@ -118,14 +123,32 @@ bool LiveSetup::knowsScanners() const {
          std::all_of(cloudFrames_.begin(), cloudFrames_.end(), isThere);
 }
 
-bool LiveSetup::knowsMounts() const {
-  const auto isKnown = [&](const std::string& frame) {
-    return frames_.find(frame, options_.base).has_value();
+std::vector<std::string> LiveSetup::framesWithoutMount() const {
+  std::vector<std::string> frames;
+  const auto look = [&](const std::string& frame) {
+    if (!frames_.find(frame, options_.base)) frames.push_back(frame);
   };
-  return std::all_of(scans_.begin(), scans_.end(),
-                     [&](const auto& scan) { return isKnown(scan->header.frame); }) &&
-         std::all_of(cloudFrames_.begin(), cloudFrames_.end(),
-                     [&](const auto& frame) { return isKnown(*frame); });
+  for (const auto& scan : scans_)
+    if (scan) look(scan->header.frame);
+  for (const auto& frame : cloudFrames_)
+    if (frame) look(*frame);
+  return frames;
+}
+
+std::string LiveSetup::missing() const {
+  const std::lock_guard lock(mutex_);
+  if (mapDigest_ == 0) return "the map at " + node_.wholeName(options_.map);
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (!scans_[i]) return "scans at " + node_.wholeName(options_.scans[i]);
+  for (std::size_t i = 0; i < cloudFrames_.size(); ++i)
+    if (!cloudFrames_[i]) return "clouds at " + node_.wholeName(options_.clouds[i]);
+  const auto frames = framesWithoutMount();
+  if (frames.empty()) return "";
+  std::string known;
+  for (const std::string& name : frames_.names()) known += (known.empty() ? "" : ", ") + name;
+  return "a transform from " + options_.base + " to " + frames.front() + "; frames at " +
+         node_.wholeName("/tf_static") + " and " + node_.wholeName("/tf") + " are " +
+         (known.empty() ? "none" : known) + " (--base-frame?)";
 }
 
 bool LiveSetup::wait(const std::function<bool()>& goOn, const std::function<bool()>& isThere) {
@@ -145,8 +168,7 @@ bool LiveSetup::waitForMap(const std::function<bool()>& goOn) {
 
 bool LiveSetup::waitForScanners(const std::function<bool()>& goOn) {
   if (!wait(goOn, [this] { return knowsScanners(); })) return false;
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  return wait(goOn, [&] { return knowsMounts() || std::chrono::steady_clock::now() > end; });
+  return wait(goOn, [this] { return knowsMounts(); });
 }
 
 bool LiveSetup::hasNewMap() const {

@@ -34,9 +34,11 @@ class LiveSetup {
   /// Waits for a map that was not written yet. @param goOn asked now and then
   /// @return whether there is one
   bool waitForMap(const std::function<bool()>& goOn);
-  /// Waits for a scan of each scanner and a cloud of each lidar, and a while for the frames in
-  /// which they are.
+  /// Waits for a scan of each scanner and a cloud of each lidar, and for the transforms that tell
+  /// where these are on the robot: without them the robot would be somewhere else than it seems.
   bool waitForScanners(const std::function<bool()>& goOn);
+  /// What is waited for, in words; "" if all is there.
+  std::string missing() const;
   /// Whether a map has come that was not written yet.
   bool hasNewMap() const;
 
@@ -59,11 +61,13 @@ class LiveSetup {
   std::string cloudsToml() const;
   void takeFrames(std::string_view cdr);
   bool knowsScanners() const;
-  bool knowsMounts() const;
+  bool knowsMounts() const { return framesWithoutMount().empty(); }
+  std::vector<std::string> framesWithoutMount() const;
   bool wait(const std::function<bool()>& goOn, const std::function<bool()>& isThere);
   void complain(const std::string& what);
 
   const Options options_;
+  const Participant& node_;
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::optional<OccupancyGrid> newMap_;

@@ -142,8 +142,8 @@ void useParameters(Arguments& arguments, const RosArguments& ros) {
       set("-p", name, value);
       continue;
     }
-    for (const auto& [key, text] : readParamsFile(file, arguments.node.node.names))
-      set(file.string(), key, text);
+    for (const auto& [key, text, isForAll] : readParamsFile(file, arguments.node.node.names))
+      if (!isForAll || AmclParameters::find(key) != nullptr) set(file.string(), key, text);
   }
   const AmclSettings settings = parameters.settings();
   LiveLocalization::Options& options = arguments.node.localization;

@@ -57,7 +57,7 @@ struct Arguments {
   double patience = 0.5;  ///< [s]
   double mostForward = std::numeric_limits<double>::infinity();
   double mostTurn = std::numeric_limits<double>::infinity();
-  std::string distro = "humble";
+  std::string distro = "humble", mapFrame = "none";
 };
 
 void addServer(CLI::App& app, Arguments& a) {
@@ -80,10 +80,6 @@ void addServer(CLI::App& app, Arguments& a) {
 }
 
 void addNode(CLI::App& app, Arguments& a) {
-  const std::map<std::string, RobotTopics::MapFrame> mapFrames = {
-      {"none", RobotTopics::MapFrame::kNone},
-      {"truth", RobotTopics::MapFrame::kTruth},
-      {"robot", RobotTopics::MapFrame::kBest}};
   app.add_option("--node", a.node.names.node, "Name of the node")->capture_default_str();
   app.add_option("--namespace", a.node.names.space, "Namespace of node and topics, as /robot1")
       ->capture_default_str();
@@ -92,10 +88,10 @@ void addNode(CLI::App& app, Arguments& a) {
                  "namespace");
   app.add_option("--base-frame", a.robot.base, "Frame of the robot")->capture_default_str();
   app.add_option("--odom-frame", a.robot.odom, "Frame of odometry")->capture_default_str();
-  app.add_option("--map-frame-from", a.robot.mapFrame,
+  app.add_option("--map-frame-from", a.mapFrame,
                  "What tells map -> odom: none, truth, or the robot's own localization (robot)")
-      ->transform(CLI::CheckedTransformer(mapFrames))
-      ->default_str("none");
+      ->check(CLI::IsMember({"none", "truth", "robot"}))
+      ->capture_default_str();
   app.add_flag("--ground-truth", a.robot.tellsTruth, "Tell the true pose at ground_truth");
   app.add_flag("--no-clock{false}", a.robot.tellsClock,
                "Don't tell /clock, e.g. since another robot of the same simulation does");
@@ -267,7 +263,28 @@ void read(CLI::App& app, Arguments& a, const std::vector<std::string>& words) {
   const bool isOld = a.distro == "humble" || a.distro == "galactic" || a.distro == "foxy";
   a.node.distro = isOld ? Distro::kHumble : Distro::kJazzy;
   a.robot.distro = a.node.distro;
+  if (a.mapFrame == "truth") a.robot.mapFrame = RobotTopics::MapFrame::kTruth;
+  if (a.mapFrame == "robot") a.robot.mapFrame = RobotTopics::MapFrame::kBest;
   a.node.readEnvironment();
+}
+
+/// Waits for a server that is beginning, too. @throws as Bridge
+void connect(Arguments& a, std::optional<Bridge>& bridge) {
+  constexpr std::chrono::seconds kPatience{10};
+  constexpr std::chrono::milliseconds kBetween{200};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!bridge && !isStopped) {
+    try {
+      bridge.emplace(a);
+    } catch (const ortung::ConnectionLost&) {
+      if (std::chrono::steady_clock::now() > end) throw;
+      std::this_thread::sleep_for(kBetween);
+    } catch (const ortung::ServerRefused&) {
+      if (a.robotFile.empty())
+        std::cerr << "ortung-ros2-robot: a simulation needs --robot FILE" << '\n';
+      throw;
+    }
+  }
 }
 
 int start(const std::vector<std::string>& words) {
@@ -295,7 +312,9 @@ int start(const std::vector<std::string>& words) {
   try {
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
-    Bridge(a).run();
+    std::optional<Bridge> bridge;
+    connect(a, bridge);
+    if (bridge) bridge->run();
   } catch (const std::exception& error) {
     std::cerr << "ortung-ros2-robot: " << error.what() << '\n';
     return 1;

@@ -62,7 +62,7 @@ void readParameters(std::string_view text) {
   std::ofstream(file) << text;
   AmclParameters parameters;
   try {
-    for (const auto& [name, value] : readParamsFile(file, {"amcl", "/"}))
+    for (const auto& [name, value, isForAll] : readParamsFile(file, {"amcl", "/"}))
       parameters.setText(name, value);
   } catch (const std::runtime_error&) {  // it is no such file
   } catch (const std::invalid_argument&) {

@@ -27,7 +27,8 @@ std::filesystem::path ownFile() {
 
 AmclParameters read(const std::filesystem::path& file, const RosNames& names) {
   AmclParameters parameters;
-  for (const auto& [name, text] : readParamsFile(file, names)) parameters.setText(name, text);
+  for (const auto& [name, text, isForAll] : readParamsFile(file, names))
+    parameters.setText(name, text);
   return parameters;
 }
 
@@ -54,20 +55,20 @@ TEST(AmclParameters, TakesAFileOfNav2AsItIs) {
 
 TEST(AmclParameters, MeanWhatTheyMeanInAmcl) {
   AmclParameters parameters;
-  for (const auto& [name, text] : ParameterTexts{{"alpha1", "0.08"},
-                                                 {"alpha2", "0.04"},
-                                                 {"alpha3", "0.01"},
-                                                 {"alpha4", "0.02"},
-                                                 {"update_min_d", "0.1"},
-                                                 {"update_min_a", "0.5"},
-                                                 {"max_particles", "3000"},
-                                                 {"set_initial_pose", "True"},
-                                                 {"initial_pose.x", "1"},
-                                                 {"initial_pose.yaw", "7.0"},
-                                                 {"laser_max_range", "12.5"},
-                                                 {"random_seed", "42"},
-                                                 {"save_pose_rate", "0.25"},
-                                                 {"tf_broadcast", "false"}})
+  for (const auto& [name, text, isForAll] : ParameterTexts{{"alpha1", "0.08"},
+                                                           {"alpha2", "0.04"},
+                                                           {"alpha3", "0.01"},
+                                                           {"alpha4", "0.02"},
+                                                           {"update_min_d", "0.1"},
+                                                           {"update_min_a", "0.5"},
+                                                           {"max_particles", "3000"},
+                                                           {"set_initial_pose", "True"},
+                                                           {"initial_pose.x", "1"},
+                                                           {"initial_pose.yaw", "7.0"},
+                                                           {"laser_max_range", "12.5"},
+                                                           {"random_seed", "42"},
+                                                           {"save_pose_rate", "0.25"},
+                                                           {"tf_broadcast", "false"}})
     parameters.setText(name, text);
   const AmclSettings settings = parameters.settings();
   ASSERT_TRUE(settings.initialPose);

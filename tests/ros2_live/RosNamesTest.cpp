@@ -128,17 +128,18 @@ TEST_F(ParamsFileTest, GivesWhatIsForTheNode) {
       "other:\n  ros__parameters: {alpha1: 9}\n"
       "robot1:\n  amcl:\n    ros__parameters: {alpha2: 0.4}\n"
       "/*/amcl:\n  ros__parameters: {alpha3: 0.5}\n";
-  EXPECT_EQ(read(text), (ParameterTexts{{"use_sim_time", "true"},
+  EXPECT_EQ(read(text), (ParameterTexts{{"use_sim_time", "true", true},
                                         {"alpha1", "0.1"},
                                         {"initial_pose.x", "1.5"},
                                         {"initial_pose.yaw", "-2"},
                                         {"laser_model_type", "beam"}}));
   EXPECT_EQ(read(text, {.node = "amcl", .space = "/robot1"}),
-            (ParameterTexts{{"use_sim_time", "true"}, {"alpha2", "0.4"}, {"alpha3", "0.5"}}));
+            (ParameterTexts{{"use_sim_time", "true", true}, {"alpha2", "0.4"}, {"alpha3", "0.5"}}));
 }
 
 TEST_F(ParamsFileTest, TellsWhereItIsWrong) {
-  EXPECT_NE(why("other:\n  ros__parameters: {a: 1}\n").find("for /amcl"), std::string::npos);
+  EXPECT_NE(why("other:\n  ros__parameters: {a: 1}\n").find("of /other, expected those of /amcl"),
+            std::string::npos);
   EXPECT_NE(why("amcl:\n  ros__parameters: 3\n").find("p.yaml:2"), std::string::npos);
   EXPECT_NE(why("amcl: [\n").find("p.yaml:"), std::string::npos);
   EXPECT_NE(why("").find("p.yaml"), std::string::npos);

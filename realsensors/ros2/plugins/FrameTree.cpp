@@ -1,6 +1,7 @@
 #include "FrameTree.hpp"
 
 #include <cmath>
+#include <set>
 
 namespace ortung::ros2 {
 namespace {
@@ -74,6 +75,15 @@ std::optional<Eigen::Isometry3d> FrameTree::find(const std::string& frame,
     if (root == baseRoot) return baseInRoot.inverse() * inRoot;
   }
   return std::nullopt;
+}
+
+std::vector<std::string> FrameTree::names() const {
+  std::set<std::string> all;
+  for (const auto& [child, link] : links_) {
+    all.insert(child);
+    all.insert(link.parent);
+  }
+  return {all.begin(), all.end()};
 }
 
 }  // namespace ortung::ros2

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "ortung/base/Pose2.hpp"
 #include "ortung/ros2/Messages.hpp"
@@ -37,6 +38,9 @@ class FrameTree {
   /// Returns all frames that transforms lead from or to, sorted.
   std::set<std::string> frames() const;
   std::size_t size() const { return links_.size(); }
+
+  /// All frames of which a transform was told, as parent or child, in alphabetical order.
+  std::vector<std::string> names() const;
 
  private:
   struct Link {

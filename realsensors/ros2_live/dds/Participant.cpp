@@ -235,6 +235,10 @@ Participant::Sender Participant::publish(const std::string& topic, std::string_v
   };
 }
 
+std::string Participant::wholeName(const std::string& name) const {
+  return parts_->options.names.resolve(name);
+}
+
 bool Participant::isHeard(const std::string& topic) const {
   Parts& p = *parts_;
   const std::lock_guard lock(p.mutex);

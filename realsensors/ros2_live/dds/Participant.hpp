@@ -57,6 +57,8 @@ class Participant {
   /// Offers a topic. @return what sends a message; valid as long as this
   /// @throws std::runtime_error
   Sender publish(const std::string& topic, std::string_view type, Qos qos);
+  /// The whole name of a topic or service of this node.
+  std::string wholeName(const std::string& name) const;
   /// Whether somebody reads a topic that this offers.
   bool isHeard(const std::string& topic) const;
   /// Offers a service as rmw_fastrtps does, which tells in the head of a DDS message whose request

@@ -22,7 +22,7 @@ def generate_launch_description():
              parameters=[params_file, {"yaml_filename": LaunchConfiguration("map"), "use_sim_time": use_sim_time}]),
         ExecuteProcess(cmd=["ortung-ros2", "--belief", LaunchConfiguration("belief"),
                             "--ros-args", "-r", "__node:=amcl", "--params-file", params_file],
-                       output="screen", respawn=True, respawn_delay=2.0),
+                       output="screen"),
         Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", name="lifecycle_manager_localization", output="screen",
              parameters=[{"use_sim_time": use_sim_time, "autostart": True, "node_names": ["map_server", "amcl"]}]),
     ])

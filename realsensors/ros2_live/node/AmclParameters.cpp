@@ -118,6 +118,7 @@ Table nodeParameters() {
       {"autostart_node", true, 0, 0, "whether it works without a lifecycle manager", Kind::kFixed},
       {"bond_heartbeat_period", 0.1, 0, 100, "of the lifecycle manager's bond [s]", Kind::kFixed},
       {"use_sim_time", false, 0, 0, kStamps, Kind::kNone},
+      {"allow_parameter_qos_overrides", true, 0, 0, kRos, Kind::kNone},
       {"introspection_mode", Text("disabled"), 0, 0, kRos, Kind::kNone},
       {"start_type_description_service", true, 0, 0, kRos, Kind::kNone},
   };

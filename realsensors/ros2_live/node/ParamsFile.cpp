@@ -49,7 +49,9 @@ class Reader {
         if (value.IsMap()) read(value, path + "/" + name, depth + 1);
         continue;
       }
+      others_ += (others_.empty() ? "" : ", ") + path;
       if (!isFor(path, node_)) continue;
+      isForAll_ = path == "/**" || path == "//**";
       isFound_ = true;
       if (value.IsNull()) continue;
       if (!value.IsMap()) refuse(value, "expected names of parameters with their values");
@@ -58,9 +60,9 @@ class Reader {
   }
   ParameterTexts take() {
     if (!isFound_)
-      throw std::runtime_error(
-          file_.string() + ": found no ros__parameters for " + node_ + ", expected a table '" +
-          std::string(node_.substr(node_.rfind('/') + 1)) + ":' with one, or '/**:'");
+      throw std::runtime_error(file_.string() + ": found ros__parameters of " +
+                               (others_.empty() ? "none" : others_) + ", expected those of " +
+                               node_ + " or /**; the namespace is part of the name");
     return std::move(found_);
   }
 
@@ -77,7 +79,7 @@ class Reader {
       }
       YAML::Emitter text;
       text << YAML::Flow << value;
-      found_.emplace_back(name, text.c_str());
+      found_.push_back({name, text.c_str(), isForAll_});
     }
   }
   [[noreturn]] void refuse(const YAML::Node& where, const std::string& expected) const {
@@ -89,7 +91,8 @@ class Reader {
   const std::string node_;
   ParameterTexts found_;
   std::size_t count_ = 0;  ///< of all that was looked at: aliases may make much of little
-  bool isFound_ = false;
+  bool isFound_ = false, isForAll_ = false;
+  std::string others_;  ///< nodes of which there are parameters
 };
 
 std::string readText(const std::filesystem::path& file) {

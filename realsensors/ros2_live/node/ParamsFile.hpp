@@ -9,8 +9,13 @@
 
 namespace ortung::ros2 {
 
-/// Parameters by their names, "initial_pose.x"; values are YAML: "0.2", "map", "[1, 2]".
-using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
+/// A parameter by its name, "initial_pose.x", with a value in YAML: "0.2", "map", "[1, 2]".
+struct ParameterText {
+  std::string name, value;
+  bool isForAll = false;  ///< whether it stands below /**, so that it need not be for this node
+  bool operator==(const ParameterText&) const = default;
+};
+using ParameterTexts = std::vector<ParameterText>;
 
 /// Reads from a file of parameters, as nav2_params.yaml is one, what is for a node: the tables
 /// `ros__parameters` below its name, whole or with * for one word of it and ** for any, or below
