@@ -31,14 +31,14 @@ class LiveFeaturesTest : public testing::Test {
     told.minRange = least;
     told.maxRange = most;
     told.range = range;
-    const Message message = sonar_().read(toCdr(told));
+    const Message message = sonar().read(toCdr(told));
     EXPECT_EQ(message.stamp, kStamp / 1000);
     EXPECT_EQ(message.id, kSonar);
     ConeData data(kSonar, {}, {});
     data.setData(message.stamp, message.words);
     return data.reading();
   }
-  LiveFeature sonar_() const { return liveFeatureOf(container_, "s=front/sonar/range", "map"); }
+  LiveFeature sonar() const { return liveFeatureOf(container_, "s=front/sonar/range", "map"); }
   static PoseWithCovarianceStamped fix(const std::string& frame = "map", double variance = 0.04) {
     PoseWithCovarianceStamped told;
     told.header = {kStamp, frame};
@@ -92,7 +92,7 @@ TEST_F(LiveFeaturesTest, AreThoseOfTheRobotFile) {
 
 TEST_F(LiveFeaturesTest, ComeWithOdometryOfTheirTime) {
   LiveReadings::Options options;
-  options.features = {sonar_()};
+  options.features = {sonar()};
   options.odometry = {"odometry", "odometry", "pose"};
   options.base = "base_link";
   LiveReadings readings(options);
