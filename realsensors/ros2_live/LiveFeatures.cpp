@@ -57,6 +57,8 @@ Timestamp stampOf(const Header& header) {
   return header.stamp / 1000 - (header.stamp % 1000 < 0 ? 1 : 0);
 }
 
+std::string topicOf(const std::string& text) { return text.substr(0, text.find('=')); }
+
 LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& text,
                           const std::string& map) {
   const std::size_t equals = text.find('=');
@@ -67,7 +69,7 @@ LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& t
   if (data == nullptr)
     throw std::invalid_argument(text + ": the robot file has no feature of that name");
   const Format format = data->format();
-  LiveFeature found{text.substr(0, equals), "", id, {}};
+  LiveFeature found{topicOf(text), "", id, {}};
   if (format.name() == formats::kCone) {
     found.type = Range::kType;
     found.read = [id, most = format.number("max_m")](std::string_view cdr) {

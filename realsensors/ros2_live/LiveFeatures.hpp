@@ -14,6 +14,9 @@ namespace ortung::ros2 {
 /// The time of a message [us], rounded down.
 Timestamp stampOf(const Header& header);
 
+/// The topic of TOPIC=MODEL/TYPE/FEATURE, or of TOPIC alone.
+std::string topicOf(const std::string& text);
+
 /// A feature of a robot file that the messages of one topic fill, as they are.
 struct LiveFeature {
   std::string topic;

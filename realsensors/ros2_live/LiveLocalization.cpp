@@ -52,8 +52,6 @@ const SensorData& scannerOf(const SensorContainer& container, const std::string&
   return *data;
 }
 
-std::string topicOf(const std::string& text) { return text.substr(0, text.find('=')); }
-
 /// Returns the lidar that fills a scanner, which has to see all around as those do that are made of
 /// clouds.
 LiveReadings::Lidar lidarOf(const SensorContainer& container, const std::string& text,

@@ -45,10 +45,9 @@ void LiveNode::onTransition(Lifecycle::Transition transition, Lifecycle::State s
 
 void LiveNode::listenForMap() {
   LiveSetup::Options wanted;
-  for (const std::string& scan : options_.localization.scans)
-    wanted.scans.push_back(scan.substr(0, scan.find('=')));
+  for (const std::string& scan : options_.localization.scans) wanted.scans.push_back(topicOf(scan));
   for (const std::string& cloud : options_.localization.clouds)
-    wanted.clouds.push_back(cloud.substr(0, cloud.find('=')));
+    wanted.clouds.push_back(topicOf(cloud));
   wanted.bands = options_.localization.bands;
   wanted.base = options_.localization.base;
   wanted.map = options_.map;

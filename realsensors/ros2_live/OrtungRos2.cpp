@@ -27,7 +27,6 @@ namespace {
 using ortung::LocalizationStart;
 using ortung::ros2::AmclParameters;
 using ortung::ros2::AmclSettings;
-using ortung::ros2::Distro;
 using ortung::ros2::LiveLocalization;
 using ortung::ros2::LiveNode;
 using ortung::ros2::readParamsFile;
@@ -44,7 +43,7 @@ struct Arguments {
   std::vector<std::filesystem::path> files;  ///< of parameters
   std::string start;                         ///< "": as parameters say
   std::string band;                          ///< heights of clouds
-  std::string distro = "humble";
+  std::string distro = ortung::ros2::releaseHere();
 };
 
 std::filesystem::path cacheFolder() {
@@ -119,7 +118,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "parameters say");
   app.add_option("--distro", arguments.distro,
                  "Release of those it talks to; default: ROS_DISTRO, or humble")
-      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "lyrical", "rolling"}))
+      ->check(CLI::IsMember(ortung::ros2::kReleases))
       ->capture_default_str();
 }
 
@@ -201,9 +200,7 @@ void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& w
   if (!arguments.start.empty())
     arguments.node.localization.localization.start = startOf(arguments.start);
   LiveNode::Options& options = arguments.node;
-  const auto& distro = arguments.distro;
-  const bool isOld = distro == "humble" || distro == "galactic" || distro == "foxy";
-  options.node.distro = isOld ? Distro::kHumble : Distro::kJazzy;
+  options.node.distro = ortung::ros2::distroOf(arguments.distro);
   options.node.readEnvironment();
   options.localization.name = names.node;
 }
@@ -216,8 +213,6 @@ int start(const std::vector<std::string>& words) {
   Arguments arguments;
   arguments.node.localization.localization.publish = true;
   arguments.node.node.names.node = "amcl";
-  if (const char* const distro = std::getenv("ROS_DISTRO"); distro != nullptr && *distro != '\0')
-    arguments.distro = distro;
   addOptions(app, arguments);
   try {
     read(app, arguments, words);

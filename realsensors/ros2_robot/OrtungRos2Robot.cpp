@@ -30,7 +30,6 @@ namespace {
 using ortung::RobotSession;
 using ortung::SessionOptions;
 using ortung::Timestamp;
-using ortung::ros2::Distro;
 using ortung::ros2::Participant;
 using ortung::ros2::Qos;
 using ortung::ros2::RobotNode;
@@ -57,7 +56,7 @@ struct Arguments {
   double patience = 0.5;  ///< [s]
   double mostForward = std::numeric_limits<double>::infinity();
   double mostTurn = std::numeric_limits<double>::infinity();
-  std::string distro = "humble", mapFrame = "none";
+  std::string distro = ortung::ros2::releaseHere(), mapFrame = "none";
 };
 
 void addServer(CLI::App& app, Arguments& a) {
@@ -113,7 +112,7 @@ void addNode(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0.0, 100.0));
   app.add_option("--distro", a.distro,
                  "Release of those it talks to; default: ROS_DISTRO, or humble")
-      ->check(CLI::IsMember({"humble", "iron", "jazzy", "kilted", "lyrical", "rolling"}))
+      ->check(CLI::IsMember(ortung::ros2::kReleases))
       ->capture_default_str();
 }
 
@@ -260,8 +259,7 @@ void read(CLI::App& app, Arguments& a, const std::vector<std::string>& words) {
   setServer(a.server, a.session);
   if (!a.start.empty()) a.session.start = poseOf(a.start);
   if (!a.tokenFile.empty()) std::istringstream(textOf(a.tokenFile)) >> a.session.token;
-  const bool isOld = a.distro == "humble" || a.distro == "galactic" || a.distro == "foxy";
-  a.node.distro = isOld ? Distro::kHumble : Distro::kJazzy;
+  a.node.distro = ortung::ros2::distroOf(a.distro);
   a.robot.distro = a.node.distro;
   if (a.mapFrame == "truth") a.robot.mapFrame = RobotTopics::MapFrame::kTruth;
   if (a.mapFrame == "robot") a.robot.mapFrame = RobotTopics::MapFrame::kBest;
@@ -297,8 +295,6 @@ int start(const std::vector<std::string>& words) {
   a.session.name = "robot";
   a.session.isBinary = true;
   a.node.names.node = "ortung_robot";
-  if (const char* const distro = std::getenv("ROS_DISTRO"); distro != nullptr && *distro != '\0')
-    a.distro = distro;
   addServer(app, a);
   addNode(app, a);
   try {

@@ -87,7 +87,7 @@ RobotTopics::Sink RobotNode::collector() {
   };
 }
 
-/// Sends what was collected, frames first: whoever gets a reading may look up where it was at once.
+/// Sends what was collected, frames first: a subscriber may look up a reading's pose at once.
 void RobotNode::send() {
   const std::vector<Topic>& topics = robot_->topics->topics();
   std::stable_partition(told_.begin(), told_.end(),

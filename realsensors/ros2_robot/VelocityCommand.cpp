@@ -6,7 +6,7 @@
 namespace ortung::ros2 {
 namespace {
 
-constexpr std::size_t kMostReasons = 64;  ///< whoever sends what is no message may send any
+constexpr std::size_t kMostReasons = 64;  ///< a hostile sender could make any number
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void VelocityCommand::takeStamped(std::string_view twistStamped) {
   const auto command = fromCdr<TwistStamped>(twistStamped, why);
   const std::lock_guard lock(mutex_);
   if (!command) return refuse("no message: " + why);
-  const std::int64_t stamp = command->header.stamp;  // 0: whoever has sent it does not say
+  const std::int64_t stamp = command->header.stamp;  // 0: unset
   put(command->twist, stamp == 0 ? std::nullopt : std::optional<Timestamp>(stamp / 1000));
 }
 

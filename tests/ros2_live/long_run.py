@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """long_run.py [--minutes 5] BIN  a robot of a simulation as a robot of ROS 2, localized by its map, is driven about for minutes, or an
-hour: can whoever hears a message look up map -> base at its stamp, as tf2 does, or would that extrapolate? BIN is the folder of the
+hour: can a subscriber look up map -> base at the stamp of each message, as tf2 does, without extrapolation? BIN is the folder of the
 programs, those of the tests among them (build/dev/bin). No test runs this, since it is long; it ends with 1 if a look-up fails."""
 import argparse
 import os

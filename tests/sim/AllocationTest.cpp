@@ -5,23 +5,11 @@
 #include <functional>
 #include <numbers>
 
+#include "CountedAllocations.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/sim/Simulation.hpp"
-
-// Counts what this process asks of the memory, in all its libraries.
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-extern "C" {
-void* __libc_malloc(std::size_t size);  // NOLINT: as the library calls it
-void* malloc(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-}
 
 namespace ortung {
 namespace {

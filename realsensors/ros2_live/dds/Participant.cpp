@@ -82,6 +82,16 @@ std::string ddsType(std::string_view type) {
   return name + "dds_::" + std::string(type.substr(begin)) + "_";
 }
 
+std::string releaseHere() {
+  const std::string release = environment("ROS_DISTRO");
+  return release.empty() ? "humble" : release;
+}
+
+Distro distroOf(std::string_view release) {
+  const bool isOld = release == "humble" || release == "galactic" || release == "foxy";
+  return isOld ? Distro::kHumble : Distro::kJazzy;
+}
+
 void Participant::Options::readEnvironment() {
   constexpr std::uint32_t kMostDomains = 232;
   if (const std::string text = environment("ROS_DOMAIN_ID"); !text.empty()) {

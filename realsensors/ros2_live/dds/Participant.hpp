@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "RosNames.hpp"
 
@@ -22,6 +23,14 @@ enum class Distro : std::uint8_t {
   kHumble,  ///< identifiers of 24 bytes
   kJazzy,   ///< of 16, and endpoints tell the hash of their type, since Iron
 };
+
+/// The names of releases that options take.
+inline const std::vector<std::string> kReleases = {"humble", "iron",    "jazzy",
+                                                   "kilted", "lyrical", "rolling"};
+/// The release whose environment was sourced (ROS_DISTRO), or humble.
+std::string releaseHere();
+/// What a release has on the wire; one that is not known is a newer one.
+Distro distroOf(std::string_view release);
 
 /// A node of ROS 2 on DDS alone: topics, types and quality of service as rmw_fastrtps has them,
 /// over UDP only, since shared memory of different versions does not go together. Publishing never

@@ -22,11 +22,6 @@ std::string newInstance() {
   return text.data();
 }
 
-std::int64_t now() {
-  const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
-}
-
 }  // namespace
 
 Bond::Bond(std::string id, double period) : id_(std::move(id)), period_(period) {}
@@ -47,7 +42,7 @@ void Bond::say(Clock::time_point at) {
   next_ = at + std::chrono::duration_cast<Clock::duration>(period_);
   if (!send_) return;
   const std::chrono::duration<float> timeout = kTimeout;
-  send_(cdrOf(BondStatus{{now(), ""},
+  send_(cdrOf(BondStatus{{timeOfDay(), ""},
                          id_,
                          instance_,
                          isActive_,

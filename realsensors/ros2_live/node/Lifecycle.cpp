@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
 namespace ortung::ros2 {
@@ -106,10 +105,8 @@ std::vector<TransitionDescription> Lifecycle::graph() {
 
 void Lifecycle::tell(const TransitionDescription& change) const {
   if (!events_) return;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto stamp = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  events_(cdrOf(TransitionEvent{static_cast<std::uint64_t>(stamp), change.transition, change.start,
-                                change.goal}));
+  events_(cdrOf(TransitionEvent{static_cast<std::uint64_t>(timeOfDay()), change.transition,
+                                change.start, change.goal}));
 }
 
 bool Lifecycle::change(std::uint8_t transition, std::string_view label) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -173,6 +174,12 @@ void fields(auto& a, Is<ParameterDescriptor> auto& m) {
 void fields(auto& a, Is<SetParameterResult> auto& m) {
   a(m.isDone);
   a(m.reason);
+}
+
+/// The time of day [ns since 1970].
+inline std::int64_t timeOfDay() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 /// The bytes of an answer that is these fields one after another.

@@ -1,7 +1,6 @@
 #include "ParameterServices.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 namespace ortung::ros2 {
@@ -140,9 +139,8 @@ void ParameterServices::change(const std::vector<NamedParameter>& wanted) {
   if (wanted.empty()) return;
   for (const NamedParameter& one : wanted) parameters_.set(one.name, fromMessage(one));
   listener_(parameters_.settings());
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
   ParameterEvent event;
-  event.stamp = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  event.stamp = timeOfDay();
   event.node = node_;
   event.changed = wanted;
   if (events_) events_(cdrOf(event));
@@ -176,8 +174,7 @@ std::string ParameterServices::setAtomically(std::string_view request) {
 
 void ParameterServices::tellStart() {
   ParameterEvent event;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  event.stamp = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  event.stamp = timeOfDay();
   event.node = node_;
   const std::lock_guard lock(mutex_);
   for (const Description& one : AmclParameters::all())

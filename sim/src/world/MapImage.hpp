@@ -15,7 +15,7 @@ struct MapPixel {
   std::uint32_t alpha = kFull;  ///< 0: transparent, kFull: opaque
 };
 
-/// What a pixel means to whoever reads the image.
+/// What a pixel means to the caller.
 using PixelMeaning = std::function<std::uint8_t(const MapPixel&)>;
 
 /// What an image means, row 0 at the top.
