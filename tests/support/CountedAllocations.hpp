@@ -10,7 +10,7 @@ std::atomic<std::size_t> allocations{0};
 
 extern "C" {
 void* __libc_malloc(std::size_t size);  // NOLINT: as the library calls it
-void* malloc(std::size_t size) {
+void* malloc(std::size_t size) {        // NOLINT(misc-definitions-in-headers): in one source alone
   allocations.fetch_add(1, std::memory_order_relaxed);
   return __libc_malloc(size);
 }
