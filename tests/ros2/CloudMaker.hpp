@@ -3,6 +3,7 @@
 /// Clouds of points in any layout that the message permits, written byte by byte.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -56,7 +57,8 @@ inline void putNumber(double number, std::uint8_t type, bool isBigEndian, std::u
   }
 }
 
-/// Makes a cloud. Bytes that no field has are 0xA5. @pre points.size() is a multiple of form.rows
+/// Makes a cloud. Bytes that no field has are 0xA5; numbers of a field that does not lie in its
+/// point are left out. @pre points.size() is a multiple of form.rows
 inline ros2::PointCloud cloudOf(const std::vector<CloudPoint>& points, const CloudForm& form = {},
                                 std::int64_t stamp = 0, const std::string& frame = "lidar") {
   ros2::PointCloud cloud;
@@ -68,10 +70,12 @@ inline ros2::PointCloud cloudOf(const std::vector<CloudPoint>& points, const Clo
   cloud.pointStep = form.pointStep;
   cloud.rowStep = cloud.width * cloud.pointStep + form.rowPadding;
   cloud.data.assign(std::size_t{cloud.rowStep} * cloud.height, 0xA5);
+  constexpr std::array<std::uint32_t, 9> kSizes{8, 1, 1, 2, 2, 4, 4, 4, 8};
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::uint8_t* at =
         cloud.data.data() + i / cloud.width * cloud.rowStep + i % cloud.width * cloud.pointStep;
     for (const auto& field : form.fields) {
+      if (field.offset + kSizes[field.type < 9 ? field.type : 0] > form.pointStep) continue;
       const CloudPoint& p = points[i];
       const double number = field.name == "x"           ? p.x
                             : field.name == "y"         ? p.y
