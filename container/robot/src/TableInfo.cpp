@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "BuildingJson.hpp"
 #include "FieldModelJson.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/robot/RobotTables.hpp"
@@ -83,6 +84,7 @@ std::uintmax_t writeTables(const std::filesystem::path& file, const SensorContai
   meta["origin_y_m"] = grid.originY;
   meta["cell_m"] = grid.cell;
   if (!info.field.isEmpty()) meta["field"] = toJson(info.field);
+  if (!info.region.building.isEmpty()) meta["building"] = toJson(info.region.building);
   if (!info.robotToml.empty()) meta["robot_file"] = info.robotToml;
   meta["features"] = Json::array();
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(grid.rows),
@@ -128,13 +130,16 @@ TableInfo readTableInfo(const TableFile& file) {
     throw TableError(file.path().string() + ": the heading step is not in (0.0001, 2 pi]");
   }
   info.region = readRegion(file, meta);
-  if (meta.contains("field")) {
+  const auto takePart = [&](const char* key, const auto& read) {
+    if (!meta.contains(key)) return;
     try {
-      info.field = fieldModelOf(meta["field"]);
+      read(meta[key]);
     } catch (const std::exception& error) {
-      throw TableError(file.path().string() + ": " + kMeta + ": field: " + error.what());
+      throw TableError(file.path().string() + ": " + kMeta + ": " + key + ": " + error.what());
     }
-  }
+  };
+  takePart("field", [&](const Json& field) { info.field = fieldModelOf(field); });
+  takePart("building", [&](const Json& building) { info.region.building = buildingOf(building); });
   if (meta.contains("robot_file")) info.robotToml = take<std::string>(file, meta, "robot_file");
   for (const Json& feature : take<std::vector<Json>>(file, meta, "features")) {
     info.features.push_back({take<std::string>(file, feature, "id"),

@@ -20,6 +20,7 @@ void FieldRegion::check() const {
   if (std::find(standable.begin(), standable.end(), 1) == standable.end()) {
     throw std::invalid_argument("field region: there is no cell where the robot can stand");
   }
+  building.check();
 }
 
 std::vector<std::size_t> openCellsApart(const FieldRegion& region, double spacing) {

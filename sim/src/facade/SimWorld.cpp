@@ -7,6 +7,7 @@
 
 #include "BodyRays.hpp"
 #include "Cones.hpp"
+#include "FloorCut.hpp"
 #include "FreeSpace.hpp"
 #include "MapWalls.hpp"
 #include "Painters.hpp"
@@ -86,6 +87,7 @@ class ModelledWorld final : public SimWorld {
     for (const GridBody& body : ground_->model.grids)
       region.surfaceSigma =
           std::max(region.surfaceSigma, std::hypot(body.map.cell / std::sqrt(12.0), body.mapError));
+    region.building = building();
     return region;
   }
   std::span<const Landmark> landmarks() const override { return ground_->model.landmarks; }
@@ -105,6 +107,7 @@ class ModelledWorld final : public SimWorld {
     }
     ground_->rays.castFan(fan, ranges);
     bodies_.castFan(fan, ignore, ranges);
+    if (!building().isEmpty()) cutAtFloor(building(), fan, ranges);
   }
 
   void castCones(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const override {
@@ -115,6 +118,9 @@ class ModelledWorld final : public SimWorld {
       castConesAtMaps(*this, ground_->model.grids, fan, ignore, ranges);
     ground_->solids.castCones(fan, 0, ranges);
     bodies_.castCones(fan, ignore, ranges);
+    // Single rays know where their floor ends.
+    if (!building().isEmpty() && reachesOtherFloor(building(), fan, ranges))
+      World::castCones(fan, ignore, ranges);
   }
 
   bool isVisible(double x0, double y0, double z0, double x1, double y1, double z1,
@@ -122,6 +128,7 @@ class ModelledWorld final : public SimWorld {
     const std::array<double, 3> way{x1 - x0, y1 - y0, z1 - z0};
     const double length = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
     if (!std::isfinite(length) || std::isnan(slack)) return false;
+    if (!building().isEmpty() && building().floorAt(x0) != building().floorAt(x1)) return false;
     if (length <= slack) return true;
     const std::array<double, 3> from{x0, y0, z0};
     const std::array<double, 3> direction{way[0] / length, way[1] / length, way[2] / length};
@@ -194,6 +201,8 @@ class ModelledWorld final : public SimWorld {
   std::span<const Primitive> movables() const override { return ground_->model.movables; }
 
  private:
+  const Building& building() const { return ground_->model.building; }
+
   static void checkPieces(std::span<const Primitive> pieces) {
     if (pieces.empty()) throw std::invalid_argument("a moving body has no pieces");
     for (const Primitive& piece : pieces) {

@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +23,44 @@ std::size_t partAround(const std::array<double, 2>& point, const FieldParts& par
   return *found;
 }
 
+/// Returns the columns and rows of a region's cells that lie on a floor.
+FieldRegion cutOut(const FieldRegion& region, int from, int to) {
+  FieldRegion part;
+  part.grid = region.grid;
+  part.grid.originX += from * region.grid.cell;
+  part.grid.columns = to - from;
+  for (auto mask : {&FieldRegion::open, &FieldRegion::standable}) {
+    for (int row = 0; row < region.grid.rows; ++row) {
+      const auto begin = (region.*mask).begin() + std::ptrdiff_t{row} * region.grid.columns;
+      (part.*mask).insert((part.*mask).end(), begin + from, begin + to);
+    }
+  }
+  return part;
+}
+
+/// Returns the cells of the main part of each floor of a building.
+FieldRegion mainParts(const SimWorld& world, const FieldRegion& whole, const RobotSize& robot) {
+  FieldRegion main = whole;
+  std::fill(main.standable.begin(), main.standable.end(), std::uint8_t{0});
+  const FieldRegion passable = passableIn(world, whole, robot);
+  const FieldGrid& grid = whole.grid;
+  int from = 0;
+  for (const Floor& floor : whole.building.floors) {
+    const double end = std::round((floor.xHigh - grid.originX) / grid.cell);
+    const int to = static_cast<int>(std::clamp(end, 0.0, static_cast<double>(grid.columns)));
+    const FieldRegion part = cutOut(whole, from, to);
+    const FieldParts parts(part, cutOut(passable, from, to).standable);
+    if (!parts.parts().empty()) {
+      const FieldRegion its = parts.only(mainPart(world, parts));
+      for (int row = 0; row < grid.rows; ++row)
+        std::copy_n(its.standable.begin() + std::ptrdiff_t{row} * (to - from), to - from,
+                    main.standable.begin() + std::ptrdiff_t{row} * grid.columns + from);
+    }
+    from = to;
+  }
+  return main;
+}
+
 /// Reads a point "x;y". @throws std::invalid_argument
 std::array<double, 2> pointIn(const std::string& text) {
   std::array<double, 2> point{};
@@ -37,9 +79,13 @@ LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,
                     const std::optional<std::array<double, 2>>& inside) {
   const FieldRegion whole = world.region(cell, robot);
   whole.check();
-  const FieldParts parts = floorParts(world, whole, robot);
-  const std::size_t part = inside ? partAround(*inside, parts) : mainPart(world, parts);
-  LearnArea area{parts.only(part), 0.0};
+  LearnArea area;
+  if (!inside && !whole.building.isEmpty()) {
+    area.region = mainParts(world, whole, robot);
+  } else {
+    const FieldParts parts = floorParts(world, whole, robot);
+    area.region = parts.only(inside ? partAround(*inside, parts) : mainPart(world, parts));
+  }
   for (std::size_t i = 0; i < whole.standable.size(); ++i)
     area.leftOut += whole.standable[i] != area.region.standable[i] ? cell * cell : 0.0;
   return area;

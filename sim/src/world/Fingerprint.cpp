@@ -92,6 +92,8 @@ std::string fingerprintOf(const WorldModel& world) {
   for (const Landmark& mark : world.landmarks) lines.push_back(describe(mark));
   const Box2& box = world.bounds;
   lines.push_back(Line("bounds").add(box.xLow).add(box.xHigh).add(box.yLow).add(box.yHigh).text());
+  for (const Floor& floor : world.building.floors)
+    lines.push_back(Line("floor").add(floor.shift).add(floor.xLow).add(floor.xHigh).text());
   std::sort(lines.begin(), lines.end());
   Fnv all;
   for (const std::string& line : lines) all.add(line + "\n");

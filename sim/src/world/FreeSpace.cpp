@@ -44,15 +44,19 @@ bool isMetBy(const Body& body, double height) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const WorldModel& world) : bounds_(world.bounds) {
+FreeSpace::FreeSpace(const WorldModel& world)
+    : whole_(world.bounds),
+      bounds_(world.floorBounds.empty() ? std::vector{world.bounds} : world.floorBounds) {
   for (const Primitive& primitive : world.primitives)
     if (primitive.isSolid()) bodies_.push_back(&primitive);
   for (const GridBody& body : world.grids) grids_.push_back({&body, distanceToOccupied(body.map)});
 }
 
 bool FreeSpace::isInField(double x, double y, double radius) const {
-  return x - radius >= bounds_.xLow - kHair && x + radius <= bounds_.xHigh + kHair &&
-         y - radius >= bounds_.yLow - kHair && y + radius <= bounds_.yHigh + kHair;
+  return std::any_of(bounds_.begin(), bounds_.end(), [&](const Box2& box) {
+    return x - radius >= box.xLow - kHair && x + radius <= box.xHigh + kHair &&
+           y - radius >= box.yLow - kHair && y + radius <= box.yHigh + kHair;
+  });
 }
 
 bool FreeSpace::isKnown(const Grid& grid, double x, double y) {
@@ -142,7 +146,7 @@ FieldRegion FreeSpace::region(double cell, const RobotSize& robot) const {
       throw std::invalid_argument(std::string("the robot's ") + name + " is " +
                                   std::to_string(value) + " m, expected 0 to 100");
   FieldRegion region;
-  region.grid = gridOver(bounds_, cell);
+  region.grid = gridOver(whole_, cell);
   region.open.resize(region.grid.size());
   region.standable.resize(region.grid.size());
   const RobotSize point{0.0, robot.height};

@@ -34,7 +34,8 @@ class FreeSpace {
   bool isInField(double x, double y, double radius) const;
   void block(const FieldGrid& grid, const RobotSize& size, std::vector<std::uint8_t>& mask) const;
 
-  Box2 bounds_;
+  Box2 whole_;                ///< bounds of the field
+  std::vector<Box2> bounds_;  ///< of the field, or of each floor of a building
   std::vector<const Primitive*> bodies_;
   std::vector<Grid> grids_;
 };

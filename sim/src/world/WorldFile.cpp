@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "BuildingFile.hpp"
 #include "PrimitiveFile.hpp"
 #include "ReadTables.hpp"
 #include "WorldModel.hpp"
@@ -120,36 +121,9 @@ Landmark readLandmark(const Parameters& table) {
   return mark;
 }
 
-class Extent {
- public:
-  void add(const Box2& box) {
-    if (isEmpty_) box_ = box;
-    isEmpty_ = false;
-    box_ = {std::min(box_.xLow, box.xLow), std::max(box_.xHigh, box.xHigh),
-            std::min(box_.yLow, box.yLow), std::max(box_.yHigh, box.yHigh)};
-  }
-  bool isEmpty() const { return isEmpty_; }
-  const Box2& box() const { return box_; }
-
- private:
-  bool isEmpty_ = true;
-  Box2 box_;
-};
-
-/// Of what stays where it is; where nothing does, of what moves, as it stands at the beginning.
-Extent extentOf(const WorldModel& world) {
-  Extent extent;
-  for (const Primitive& primitive : world.primitives) extent.add(boundsOf(primitive));
-  for (const GridBody& body : world.grids) extent.add(body.map.bounds());
-  for (const Landmark& mark : world.landmarks) extent.add({mark.x, mark.x, mark.y, mark.y});
-  if (extent.isEmpty())
-    for (const Primitive& movable : world.movables) extent.add(boundsOf(movable));
-  return extent;
-}
-
 void readBounds(const Parameters& file, const Parameters& table, WorldModel& world) {
-  const Extent extent = extentOf(world);
-  if (extent.isEmpty()) {
+  const std::optional<Box2> extent = extentOf(world);
+  if (!extent) {
     for (const char* key : {"x_m", "y_m"})
       if (table.has(key)) table.numbers(key, 2, kCoordinate);
     file.refuseUnread();  // an unread table is most likely a misspelt [[rectangle]]
@@ -157,7 +131,11 @@ void readBounds(const Parameters& file, const Parameters& table, WorldModel& wor
                       ": the world is empty, expected at least one [[rectangle]], "
                       "[[ellipse]], [[triangle]], [[grid]] or [[landmark]]");
   }
-  const Box2& box = extent.box();
+  const Box2& box = *extent;
+  if (!world.building.isEmpty()) {
+    for (const char* key : {"x_m", "y_m"})
+      if (table.has(key)) table.fail(key, "does not fit a building, whose floors tell its bounds");
+  }
   const auto x = table.numbersOr("x_m", {box.xLow, box.xHigh}, 2, kCoordinate);
   const auto y = table.numbersOr("y_m", {box.yLow, box.yHigh}, 2, kCoordinate);
   if (!(x[1] - x[0] >= kSize.low)) table.fail("x_m", "must be [low, high] with low below high");
@@ -193,13 +171,20 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
       {{"rectangle", Primitive::Shape::kRectangle},
        {"ellipse", Primitive::Shape::kEllipse},
        {"triangle", Primitive::Shape::kTriangle}}};
+  BuildingFile building(toml);
   for (const auto& [key, shape] : shapes)
     for (const auto& table : readTables(toml, key, kMaxPrimitives))
-      world.primitives.push_back(readPrimitive(table, shape));
+      building.floorOf(table).primitives.push_back(readPrimitive(table, shape));
   for (const auto& table : readTables(toml, "landmark", kMaxPrimitives))
-    world.landmarks.push_back(readLandmark(table));
+    building.floorOf(table).landmarks.push_back(readLandmark(table));
   const auto grids = readTables(toml, "grid", kMaxGrids);
-  for (const auto& table : grids) world.grids.push_back(readGrid(table, file.parent_path()));
+  for (const auto& table : grids)
+    building.floorOf(table).grids.push_back(readGrid(table, file.parent_path()));
+  for (std::size_t i = 0; i < building.tables().size(); ++i) {
+    const Parameters& table = building.tables()[i];
+    if (table.has("map")) building.floor(i).grids.push_back(readGrid(table, file.parent_path()));
+  }
+  building.moveInto(world);
   const auto fixed = std::stable_partition(world.primitives.begin(), world.primitives.end(),
                                            [](const Primitive& p) { return !p.isMovable; });
   world.movables.assign(std::make_move_iterator(fixed),

@@ -9,6 +9,7 @@
 #include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung {
 
@@ -21,6 +22,8 @@ struct WorldModel {
   std::vector<Primitive> movables;    ///< the movable primitives at their initial poses
   std::vector<GridBody> grids;
   std::vector<Landmark> landmarks;  ///< primitives with an identity, and marks without a body
+  Building building;                ///< its floors, if it has any
+  std::vector<Box2> floorBounds;    ///< bounds of each floor, which robots can't leave
 };
 
 /// Reads a world file and the maps that it names. @throws ConfigError

@@ -25,7 +25,8 @@ struct LearnOptions {
 
 /// The part of a world for which tables are learned.
 struct LearnArea {
-  /// Cells to learn; only the connected part of the floor that holds the robot is standable.
+  /// Cells to learn; only the connected part of the floor, or of each floor of a building, that
+  /// holds the robot is standable.
   FieldRegion region;
   double leftOut = 0.0;  ///< area of the other parts on which it could stand [m^2]
 };
@@ -34,7 +35,7 @@ struct LearnArea {
 /// believe them.
 /// @param cell edge length of a cell [m]
 /// @param inside a point [m] of the part to learn; nothing: the part that FieldParts::main()
-///   chooses
+///   chooses, of each floor
 /// @throws std::invalid_argument as SimWorld::region(); if there is no room at @p inside, or none
 /// at all
 ORTUNG_API LearnArea learnArea(const SimWorld& world, double cell, const RobotSize& robot,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung {
 
@@ -47,8 +48,12 @@ struct FieldRegion {
   /// Standard deviation of the world's surfaces [m]: in maps that are made of cells, the error of
   /// rounding to these, and of who made the map.
   double surfaceSigma = 0.0;
+  /// The floors that lie side by side in the field, and the lifts between them; none in most
+  /// fields.
+  Building building = {};
 
-  /// @throws std::invalid_argument when sizes do not fit or nothing is standable
+  /// @throws std::invalid_argument when sizes do not fit, nothing is standable, or as
+  ///   Building::check()
   ORTUNG_API void check() const;
 };
 

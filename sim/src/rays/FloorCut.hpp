@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "ortung/sim_api/World.hpp"
+#include "ortung/tables/Building.hpp"
+
+namespace ortung {
+
+/// Ends rays where they leave the strip of their floor: what stands on another floor is not there
+/// for them.
+inline void cutAtFloor(const Building& building, const RayFan& fan, std::span<float> ranges) {
+  const Floor& floor = building.floors[building.floorAt(fan.x)];
+  const double flat = std::cos(fan.elevation);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double along = flat * std::cos(fan.firstAngle + static_cast<double>(i) * fan.angleStep);
+    const double end = along > 0.0 ? floor.xHigh : floor.xLow;
+    if (static_cast<double>(ranges[i]) * std::abs(along) > std::abs(end - fan.x))
+      ranges[i] = static_cast<float>(fan.maxRange);
+  }
+}
+
+/// Returns whether a cone may have met something on another floor.
+inline bool reachesOtherFloor(const Building& building, const ConeFan& fan,
+                              std::span<const float> ranges) {
+  const Floor& floor = building.floors[building.floorAt(fan.x)];
+  const double border = std::min(fan.x - floor.xLow, floor.xHigh - fan.x);
+  for (const float range : ranges)
+    if (range < static_cast<float>(fan.maxRange) && static_cast<double>(range) > border)
+      return true;
+  return false;
+}
+
+}  // namespace ortung
