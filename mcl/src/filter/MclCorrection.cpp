@@ -2,6 +2,7 @@
 // resample.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "Annealing.hpp"
 #include "BeliefTuning.hpp"
@@ -234,7 +235,8 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   const std::vector<NewReading>& news = *led.moment.news;
   lookElsewhere(led);
   track->travelled = {};
-  estimate = led.estimate;
+  const Pose2 before = std::exchange(estimate, led.estimate).pose;
+  followFloor(before);
   estimate.stamp = stamp;
   track->coarsest = coarsestOf(news);
   keepResolution(estimate);
@@ -251,6 +253,15 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   steps.apply(estimate);
   if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
   return {std::move(led.weights), std::move(led.bins)};
+}
+
+/// The parts that follow the estimate by odometry forget where it was on another floor.
+/// @param before the estimate's pose until now
+void Mcl::Impl::followFloor(const Pose2& before) {
+  const Building& building = tools.region.building;
+  if (building.isEmpty() || building.floorAt(before.x) == building.floorAt(estimate.pose.x)) return;
+  parts.forgetPlace();
+  steps.because(Relocalization::kOtherPlace);
 }
 
 /// Follows other places at which readings fit as well.

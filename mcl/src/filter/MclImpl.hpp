@@ -10,6 +10,7 @@
 #include "Drift.hpp"
 #include "Intake.hpp"
 #include "Kld.hpp"
+#include "LiftRides.hpp"
 #include "MapWatch.hpp"
 #include "Steps.hpp"
 #include "Track.hpp"
@@ -70,6 +71,7 @@ struct Mcl::Impl {
   std::optional<Track> track;
   LastingParts parts;
   Intake intake;
+  LiftRides rides;
   MapWatch map;  ///< where the map no longer fits
   Steps steps;   ///< how far updates move what is told
   Reached reached;
@@ -85,7 +87,8 @@ struct Mcl::Impl {
               {},
               {},
               {tools.config, tools.region, tools.search, tools.workers}},
-        intake(tools.config, *tools.motion) {}
+        intake(tools.config, *tools.motion),
+        rides(tools.region) {}
 
   std::uint64_t stream(Purpose purpose) const {
     return step * static_cast<std::uint64_t>(Purpose::kCount) + static_cast<std::uint64_t>(purpose);
@@ -125,6 +128,7 @@ struct Mcl::Impl {
   void moveBlindly(Timestamp stamp);
   std::size_t spread(Timestamp stamp);
   void enlarge();
+  void rideLifts(Timestamp stamp);
   template <class MoveSome>
   void move(const MoveSome& moveSome);
   void followIntervals(Timestamp stamp);
@@ -139,6 +143,7 @@ struct Mcl::Impl {
   [[nodiscard]] Estimated estimateFrom(Led led);
   void lookElsewhere(const Led& led);
   PoseDistance othersOf(const Led& led) const;
+  void followFloor(const Pose2& before);
   void resample(const Estimated& estimated);
   std::optional<Rivals::Moment> competition(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);

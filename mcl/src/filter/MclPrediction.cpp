@@ -20,6 +20,8 @@ using namespace tuning::prediction;
 // Number of the first random number of each alternative hypothesis, so that its noise is not that
 // of the belief's samples.
 constexpr std::size_t kNumberOfRivals = 1U << 24;
+/// Fork of the random numbers by which samples ride lifts.
+constexpr std::uint64_t kForkOfRides = 9;
 
 }  // namespace
 
@@ -114,9 +116,31 @@ Predicted Mcl::Impl::predict(Timestamp stamp) {
     else
       predicted.drifted = spread(stamp);
   }
+  if (predicted.drifted == 0) rideLifts(stamp);
   followIntervals(stamp);
   reached.stamp = stamp;
   return predicted;
+}
+
+/// Lets samples ride that stand in a lift, while nothing says that the robot moves.
+void Mcl::Impl::rideLifts(Timestamp stamp) {
+  if (rides.isEmpty() || track->waitsForStart || !reached.stamp) return;
+  if (!track->isBlind && track->travelled.all > tuning::lifts::kStands) return;
+  const SampleSet& samples = track->belief.samples();
+  bool isAny = false;
+  for (std::size_t i = 0; i < samples.size() && !isAny; ++i)
+    isAny = rides.isInLift(static_cast<double>(samples.x[i]), static_cast<double>(samples.y[i]));
+  if (!isAny) return;
+  enlarge();  // for all of the stops
+  const double seconds = std::max(0.0, toSeconds(stamp - *reached.stamp));
+  const Random random = this->random(Purpose::kSpread).fork(kForkOfRides);
+  bool isCarried = false;
+  track->belief.move(0, [&](const MovableSamples& some, std::size_t first) {
+    isCarried = rides.ride(some, seconds, random.fork(first)) || isCarried;
+  });
+  // What readings have said against other floors until now counts no more.
+  if (isCarried) track->lookalikes.forget();
+  track->present.reset();
 }
 
 /// The usual interval rises at once and falls slowly: what was usual a while ago is still usual.

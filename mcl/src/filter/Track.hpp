@@ -60,8 +60,8 @@ struct Track {
         waitsForStart(waits),
         momentum(tools.config),
         recovery(tools.config),
-        rivals(tools.config, tools.region, tools.search, *tools.motion, tools.time, tools.workers) {
-  }
+        rivals(tools.config, tools.region, tools.search, *tools.motion, tools.time, tools.workers),
+        lookalikes(tools.region.building) {}
 
   /// Returns whether there are samples that may be reported.
   bool isKnown() const { return !waitsForStart && belief.samples().size() > 0; }

@@ -18,6 +18,19 @@ ORTUNG_CONSTANT(carried, kCopies, std::size_t{1024});
 
 }  // namespace carried
 
+/// LiftRides: rides of lifts.
+namespace lifts {
+
+/// [s] Mean time after which a robot that stands in a lift may be at any of its stops. Chosen by
+/// hand: doors close and a lift comes to the next floor within a few seconds, and until then the
+/// floor has to be open.
+ORTUNG_CONSTANT(lifts, kSeconds, 8.0);
+/// [m] Longest way between two readings of a robot that stands; turns count as in common. Chosen by
+/// hand: odometry of a robot that stands counts millimetres.
+ORTUNG_CONSTANT(lifts, kStands, 0.01);
+
+}  // namespace lifts
+
 /// Odometry: its errors, learned on the way.
 namespace odometry {
 

@@ -44,6 +44,7 @@ void Lookalikes::follow(const Moment& moment, const Evidence& evidence) {
       from && odometry_ ? inverse(*from) * *odometry_ : inverse(before) * estimate_;
   for (Place& place : places_) place.pose = place.pose * motion;
   exchange(before * motion, estimate_);
+  alignFloors();
   const std::vector<double> logs = heights(evidence, moment.random);
   for (std::size_t i = 0; i < places_.size(); ++i)
     places_[i].add(logs[i + 1] - logs[0], moment.travelled / common::kIndependent);
@@ -60,6 +61,18 @@ void Lookalikes::exchange(const Pose2& left, const Pose2& estimate) {
   if (!isSame(nearest->pose, estimate) || apart(left, estimate) <= apart(nearest->pose, estimate))
     return;
   *nearest = Place{left};
+}
+
+/// Puts places on other floors that are at the estimate's place there to exactly its pose.
+void Lookalikes::alignFloors() {
+  if (building_.isEmpty()) return;
+  const Floor& here = building_.floors[building_.floorAt(estimate_.x)];
+  const Pose2 onFloor = here.fromField(estimate_);
+  for (Place& place : places_) {
+    const Floor& there = building_.floors[building_.floorAt(place.pose.x)];
+    if (&there != &here && isSame(there.fromField(place.pose), onFloor))
+      place.pose = there.toField(onFloor);
+  }
 }
 
 /// Lets each place climb to the pose near it at which the readings fit best.

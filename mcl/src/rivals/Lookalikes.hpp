@@ -8,6 +8,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung {
 
@@ -17,9 +18,14 @@ namespace ortung {
 /// offices of one kind), samples leave all of these places but one sooner or later, by the chance
 /// of resampling alone. So each of them is followed as a pose: it moves as the robot does, climbs
 /// to where the readings fit best near it, and is compared there with the estimate. It is ruled out
-/// once what readings have said against it exceeds what they say by chance. Not thread-safe.
+/// once what readings have said against it exceeds what they say by chance. In a building the same
+/// place on another floor needs no climbing: it is compared at the estimate's own place there, so
+/// that equal floors are never told apart by how well their poses are known. Not thread-safe.
 class ORTUNG_API Lookalikes {
  public:
+  /// @param building borrowed
+  explicit Lookalikes(const Building& building) : building_(building) {}
+
   /// One time step's readings, once they have weighed the belief.
   struct Moment {
     Pose2 estimate;                 ///< of the belief, field frame
@@ -54,10 +60,12 @@ class ORTUNG_API Lookalikes {
     /// Returns ln of its probability by that of the estimate, as far as chance does not explain it.
     double odds() const;
   };
+  void alignFloors();
   std::vector<double> heights(const Evidence& evidence, Random random);
   void exchange(const Pose2& left, const Pose2& estimate);
   void tidy();
 
+  const Building& building_;
   Pose2 estimate_;  ///< at the last readings
   std::optional<Pose2> odometry_;
   std::vector<Place> places_;
