@@ -69,6 +69,19 @@ std::string landmarksOf(const SimWorld& world) {
   return text;
 }
 
+/// Prints the floors of a building, and where poses on them are in the field.
+void printBuilding(const Building& building) {
+  for (const Floor& floor : building.floors)
+    fmt::print("  floor '{}': x from {:g} to {:g} m, its map's x plus {:g} m\n",
+               printable(floor.name), floor.xLow, floor.xHigh, floor.shift);
+  for (const Lift& lift : building.lifts) {
+    std::string stops;
+    for (const LiftStop& stop : lift.stops)
+      stops += (stops.empty() ? "" : ", ") + building.floors[stop.floor].name;
+    fmt::print("  lift '{}': stops at {}\n", printable(lift.name), printable(stops));
+  }
+}
+
 void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
   constexpr double kCell = 0.1;  // default of `ortung learn` [m]
   const RobotSize size = arguments.robot.empty() ? RobotSize{RobotConfig().radius}
@@ -81,6 +94,7 @@ void checkWorldFile(const fs::path& file, const CheckArguments& arguments) {
       printable(file.string()), printable(world->name()), world->fingerprint(), bounds(region.grid),
       region.grid.columns, region.grid.rows, kCell, countOf(region.open), countOf(region.standable),
       size.radius, size.height, printable(landmarksOf(*world)));
+  printBuilding(region.building);
   if (countOf(region.standable) == 0) return;
   const double leftOut = learnArea(*world, kCell, size).leftOut;
   if (leftOut > 0.0)
@@ -158,6 +172,7 @@ void checkTables(const fs::path& file, const CheckArguments& arguments) {
       printable(info.worldFingerprint), static_cast<double>(fs::file_size(file)) / 1e6,
       bounds(grid), grid.columns, grid.rows, grid.cell, countOf(info.region.open),
       countOf(info.region.standable), degrees(info.headingStep));
+  printBuilding(info.region.building);
   for (const TableInfo::Feature& feature : info.features) {
     fmt::print("  {:<40} {}\n", printable(feature.id), printable(feature.key));
   }

@@ -233,6 +233,31 @@ TEST_F(Tables, KeepWhatIsKnownOfTheField) {
   EXPECT_TRUE(readTableInfo(TableFile(file_)).field.isEmpty());
 }
 
+TEST_F(Tables, KeepTheFloorsOfABuilding) {
+  TableInfo info = infoOf(region_);
+  Building& building = info.region.building;
+  building.floors = {{"ground", 0.0, -5.25, 15.0}, {"first", 30.0, 15.0, 45.0}};
+  building.lifts = {{"A", 1.25, {{0, {3.5, 1, 0.5}}, {1, {33, 1, -0.5}}}}};
+  Robot robot;
+  robot.learn(region_);
+  writeTables(folder_ / "building.npz", robot.container, info);
+  const Building read = readTableInfo(TableFile(folder_ / "building.npz")).region.building;
+  ASSERT_EQ(read.floors.size(), 2u);
+  EXPECT_EQ(read.floors[0].name, "ground");
+  EXPECT_EQ(read.floors[0].xLow, -5.25);
+  EXPECT_EQ(read.floors[1].shift, 30.0);
+  EXPECT_EQ(read.floors[1].xHigh, 45.0);
+  ASSERT_EQ(read.lifts.size(), 1u);
+  EXPECT_EQ(read.lifts[0].name, "A");
+  EXPECT_EQ(read.lifts[0].radius, 1.25);
+  ASSERT_EQ(read.lifts[0].stops.size(), 2u);
+  EXPECT_EQ(read.lifts[0].stops[1].floor, 1u);
+  EXPECT_EQ(read.lifts[0].stops[0].pose.theta, 0.5);
+  EXPECT_EQ(read.lifts[0].stops[1].pose.x, 33.0);
+  EXPECT_EQ(read.lifts[0].stops[1].pose.y, 1.0);
+  EXPECT_TRUE(readTableInfo(TableFile(file_)).region.building.isEmpty());
+}
+
 /// The example's arrays with another meta.json (and, if given, another array in place of its own).
 std::string complaintWith(const TemporaryFolder& folder, const TableFile& from,
                           const std::string& meta, const TableArray* instead = nullptr) {
@@ -292,6 +317,36 @@ TEST_F(Tables, AForgedFieldIsRefusedWithAReason) {
         "{\"walls\": [[null, 2, 3, 4, 5, 6, true]], " + rest + "}"}) {
     const std::string told = with(field);
     EXPECT_TRUE(told.starts_with(": meta.json: field: ")) << field << ": " << told;
+  }
+}
+
+TEST_F(Tables, AForgedBuildingIsRefusedWithAReason) {
+  const auto file = open();
+  const std::string meta = file->text("meta.json");
+  const auto with = [&](const std::string& building) {
+    return complaintWith(
+        folder_, *file,
+        replaced(meta, "\"features\"", "\"building\": " + building + ", \"features\""));
+  };
+  const std::string floors =
+      "\"floors\": [{\"name\": \"g\", \"shift_m\": 0, \"x_m\": [0, 9]}, "
+      "{\"name\": \"one\", \"shift_m\": 9, \"x_m\": [9, 18]}]";
+  const auto liftAt = [&](const std::string& stops) {
+    return "{" + floors + ", \"lifts\": [{\"name\": \"A\", \"radius_m\": 1, \"stops\": [" + stops +
+           "]}]}";
+  };
+  const std::string first = "{\"floor\": 0, \"pose\": [1, 0, 0]}, ";
+  EXPECT_EQ(with("{" + floors + ", \"lifts\": []}"), "(nothing was thrown)");
+  EXPECT_EQ(with(liftAt(first + "{\"floor\": 1, \"pose\": [10, 0, 0]}")), "(nothing was thrown)");
+  for (const std::string& building :
+       {std::string("3"), std::string("{}"), "{" + floors + "}",
+        std::string("{\"floors\": [{\"name\": 1}], \"lifts\": []}"), liftAt(first),
+        liftAt(first + "{\"floor\": -1, \"pose\": [10, 0, 0]}"),
+        liftAt(first + "{\"floor\": 1, \"pose\": [10, 0]}"),
+        liftAt(first + "{\"floor\": 1, \"pose\": [null, 0, 0]}"),
+        liftAt(first + "{\"floor\": 1, \"pose\": [2, 0, 0]}")}) {
+    const std::string told = with(building);
+    EXPECT_TRUE(told.starts_with(": meta.json: building: ")) << building << ": " << told;
   }
 }
 

@@ -59,7 +59,8 @@ class LookalikesTest : public testing::Test {
   }
 
   Pose2 robot_{2.0, 1.0, 0.3};
-  Lookalikes lookalikes_;
+  const Building none_;
+  Lookalikes lookalikes_{none_};
 };
 
 TEST_F(LookalikesTest, WithoutOthersTheEstimateHasAllOfTheShare) {
@@ -163,6 +164,41 @@ TEST_F(LookalikesTest, AreForgotten) {
   lookalikes_.forget();
   EXPECT_TRUE(lookalikes_.isEmpty());
   EXPECT_EQ(lookalikes_.shareOfEstimate(), 1.0);
+}
+
+/// Two equal floors 40 m apart: what is known of the pose on one is known of that on the other, so
+/// readings never tell them apart, though the look-alike was first found beside.
+TEST(LookalikesOfFloors, EqualFloorsAreNeverToldApart) {
+  Building building;
+  building.floors = {{"a", 0.0, -10.0, 20.0}, {"b", 40.0, 20.0, 60.0}};
+  Pose2 robot{2.0, 1.0, 0.3};
+  const Evidence evidence{
+      [&](const SampleSet& set, std::vector<float>& logs) {
+        logs.clear();
+        for (std::size_t i = 0; i < set.size(); ++i) {
+          const double x = static_cast<double>(set.x[i]);
+          const Pose2 onFloor = building.floors[building.floorAt(x)].fromField(
+              {x, static_cast<double>(set.y[i]), static_cast<double>(set.theta[i])});
+          // Sharper than a look-alike climbs.
+          logs.push_back(
+              static_cast<float>(-0.5 * (std::pow(distance(onFloor, robot) / 0.02, 2) +
+                                         std::pow((onFloor.theta - robot.theta) / 0.01, 2))));
+        }
+      },
+      [](const SampleSet&) { return 1.0; }};
+  Lookalikes lookalikes(building);
+  PoseEstimate own;
+  own.pose = robot;
+  own.share = 0.5;
+  PoseEstimate other = own;
+  other.pose = {42.1, 1.1, 0.25};
+  lookalikes.follow({robot, robot, 0.0, Random(1, 0)}, evidence);
+  lookalikes.add(std::vector{own, other});
+  for (int i = 0; i < 300; ++i) {
+    robot = robot * Pose2{0.05, 0.0, 0.05};
+    lookalikes.follow({robot, robot, 0.2, Random(2, static_cast<std::uint64_t>(i))}, evidence);
+    ASSERT_NEAR(lookalikes.shareOfEstimate(), 0.5, 0.05) << i;
+  }
 }
 
 }  // namespace

@@ -118,9 +118,7 @@ class ModelledWorld final : public SimWorld {
       castConesAtMaps(*this, ground_->model.grids, fan, ignore, ranges);
     ground_->solids.castCones(fan, 0, ranges);
     bodies_.castCones(fan, ignore, ranges);
-    // Single rays know where their floor ends.
-    if (!building().isEmpty() && reachesOtherFloor(building(), fan, ranges))
-      World::castCones(fan, ignore, ranges);
+    if (!building().isEmpty()) castConesOnFloor(fan, ignore, ranges);
   }
 
   bool isVisible(double x0, double y0, double z0, double x1, double y1, double z1,
@@ -202,6 +200,20 @@ class ModelledWorld final : public SimWorld {
 
  private:
   const Building& building() const { return ground_->model.building; }
+
+  /// Casts cones anew that may have met something on another floor, as rays, which know where their
+  /// floor ends.
+  void castConesOnFloor(const ConeFan& fan, RobotNumber ignore, std::span<float> ranges) const {
+    const double border = toBorder(building(), fan.x);
+    const auto goesBeyond = [&](float range) {
+      return static_cast<double>(range) > border && range < static_cast<float>(fan.maxRange);
+    };
+    if (std::none_of(ranges.begin(), ranges.end(), goesBeyond)) return;
+    std::vector<float> rays(ranges.size());
+    World::castCones(fan, ignore, rays);
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      if (goesBeyond(ranges[i])) ranges[i] = rays[i];
+  }
 
   static void checkPieces(std::span<const Primitive> pieces) {
     if (pieces.empty()) throw std::invalid_argument("a moving body has no pieces");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -22,15 +23,10 @@ inline void cutAtFloor(const Building& building, const RayFan& fan, std::span<fl
   }
 }
 
-/// Returns whether a cone may have met something on another floor.
-inline bool reachesOtherFloor(const Building& building, const ConeFan& fan,
-                              std::span<const float> ranges) {
-  const Floor& floor = building.floors[building.floorAt(fan.x)];
-  const double border = std::min(fan.x - floor.xLow, floor.xHigh - fan.x);
-  for (const float range : ranges)
-    if (range < static_cast<float>(fan.maxRange) && static_cast<double>(range) > border)
-      return true;
-  return false;
+/// Returns how far the strip of a place's floor reaches at least [m].
+inline double toBorder(const Building& building, double x) {
+  const Floor& floor = building.floors[building.floorAt(x)];
+  return std::min(x - floor.xLow, floor.xHigh - x);
 }
 
 }  // namespace ortung

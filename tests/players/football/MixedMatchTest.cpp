@@ -1,7 +1,8 @@
 // Footballers of a team, some in the simulator and some as clients of it, in lockstep.
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <array>
+#include <cmath>
 #include <csignal>
 #include <memory>
 #include <optional>
@@ -49,12 +50,12 @@ std::vector<std::string> client(const std::string& team, const std::string& addr
 /// Returns the length of a body's way [m] by a trace, whose lines tell its x and y behind its name.
 double wayOf(const std::string& name, const std::string& trace) {
   double way = 0.0;
-  std::optional<Eigen::Vector2d> before;
+  std::optional<std::array<double, 2>> before;
   for (std::size_t at = trace.find(name); at != trace.npos; at = trace.find(name, at + 1)) {
     const std::size_t x = trace.find(',', at) + 1;
     const std::size_t y = trace.find(',', x) + 1;
-    const Eigen::Vector2d place(std::stod(trace.substr(x, 10)), std::stod(trace.substr(y, 10)));
-    if (before) way += (place - *before).norm();
+    const std::array place{std::stod(trace.substr(x, 10)), std::stod(trace.substr(y, 10))};
+    if (before) way += std::hypot(place[0] - (*before)[0], place[1] - (*before)[1]);
     before = place;
   }
   return way;

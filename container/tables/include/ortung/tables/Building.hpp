@@ -23,14 +23,12 @@ struct Floor {
   Pose2 toField(const Pose2& pose) const { return {pose.x + shift, pose.y, pose.theta}; }
   /// Returns the pose in the floor's own frame of a pose in the field.
   Pose2 fromField(const Pose2& pose) const { return {pose.x - shift, pose.y, pose.theta}; }
-  bool operator==(const Floor&) const = default;
 };
 
 /// Where a lift stops.
 struct LiftStop {
   std::size_t floor = 0;  ///< index of the floor
   Pose2 pose;             ///< pose of the cabin's middle in the field
-  bool operator==(const LiftStop&) const = default;
 };
 
 /// A lift: a robot that stands in it may be at any of its stops a moment later.
@@ -38,7 +36,6 @@ struct Lift {
   std::string name;
   double radius = 1.0;  ///< whoever is this near to its middle stands in it [m]
   std::vector<LiftStop> stops;
-  bool operator==(const Lift&) const = default;
 };
 
 /// The floors of a field, and the lifts between them. Most fields are no buildings: they have
@@ -57,7 +54,6 @@ struct Building {
   /// stops on floors that there are not or outside of their strips, and lifts with fewer than two
   /// stops
   ORTUNG_API void check() const;
-  bool operator==(const Building&) const = default;
 };
 
 }  // namespace ortung
