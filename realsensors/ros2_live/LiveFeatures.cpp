@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "FrameTree.hpp"
+#include "LiveImages.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -51,6 +52,12 @@ Message readFix(std::string_view cdr, const SensorId& feature, const std::string
   return {stampOf(told.header), feature, PoseFixData::encode(std::span(&fix, 1))};
 }
 
+/// The size of the pictures that a feature takes; 0 x 0: any.
+ImageSize sizeIn(const Format& format) {
+  if (!format.has("width") || !format.has("height")) return {0, 0};
+  return {static_cast<int>(format.number("width")), static_cast<int>(format.number("height"))};
+}
+
 }  // namespace
 
 Timestamp stampOf(const Header& header) {
@@ -78,10 +85,16 @@ LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& t
   } else if (format.name() == formats::kFix) {
     found.type = PoseWithCovarianceStamped::kType;
     found.read = [id, map](std::string_view cdr) { return readFix(cdr, id, map); };
+  } else if (format.name() == formats::kImage) {
+    found.type = Image::kType;
+    found.read = [id, size = sizeIn(format)](std::string_view cdr) -> Message {
+      const auto image = decoded<Image>(cdr);
+      return {stampOf(image.header), id, wordsOf(image, size)};
+    };
   } else {
     throw std::invalid_argument(text + ": no message of ROS 2 fills a feature of the format " +
-                                std::string(format.name()) + ", expected " + formats::kCone +
-                                " or " + formats::kFix);
+                                std::string(format.name()) + ", expected " + formats::kCone + ", " +
+                                formats::kFix + " or " + formats::kImage);
   }
   return found;
 }

@@ -28,7 +28,8 @@ struct LiveFeature {
 };
 
 /// Finds the feature of TOPIC=MODEL/TYPE/FEATURE, whose format says which messages there are: a
-/// cone has sensor_msgs/Range, a fix geometry_msgs/PoseWithCovarianceStamped of the robot's base.
+/// cone has sensor_msgs/Range, a fix geometry_msgs/PoseWithCovarianceStamped of the robot's base, a
+/// picture sensor_msgs/Image.
 /// @param map frame in which fixes are
 /// @throws std::invalid_argument if the container has no such feature, or if no message fills it
 LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& text,

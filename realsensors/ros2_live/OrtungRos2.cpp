@@ -94,8 +94,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "What tells roll and pitch, for clouds: a topic of sensor_msgs/Imu, odometry, none")
       ->capture_default_str();
   app.add_option("--feature", options.features,
-                 "Topic whose messages (Range, PoseWithCovarianceStamped) fill a feature of the "
-                 "robot file, TOPIC=MODEL/TYPE/FEATURE; may be given again")
+                 "Topic whose messages (Range, PoseWithCovarianceStamped, Image) fill a feature of "
+                 "the robot file, TOPIC=MODEL/TYPE/FEATURE; may be given again")
       ->needs("--robot");
   app.add_option("--odometry", options.odometry, "Topic of nav_msgs/Odometry, or tf: odom -> base")
       ->capture_default_str();
