@@ -7,16 +7,16 @@
 //   rest               no command, until odometry stands still
 //   wander SECONDS     ahead where scans are free, else turning, for so long by the robot's clock
 //   hear SECONDS       no command, for so long by the robot's clock
-// It prints "clock", "odom", "scan", "range", "truth", "tf", "static", "map", and "told STAMP_NS V
-// W" of commands, by the newest clock; "-" for none. It fails if something takes 100 s
-// longer than that.
+// It prints "clock", "odom", "scan", "range", "truth", "tf", "static", "map", "diagnostics" of what
+// counts relocalizations, and "told STAMP_NS V W" of commands, by the newest clock; "-" for none.
+// It fails if something takes 100 s longer than that.
 #include <math.h>
 #include <string.h>
 
 #include "cyclone_parts.h"
 #include "messages.h"
 
-enum { kMostReaders = 8, kPatience = 100 };
+enum { kMostReaders = 9, kPatience = 100 };
 
 static dds_entity_t participant, commands;
 static const char* space;
@@ -104,6 +104,24 @@ static void print_map(const void* sample) {
   for (uint32_t i = 0; i < m->data._length; ++i) occupied += m->data._buffer[i] == 100;
   printf("map %s %.9g %u %u %.9g %.9g %u\n", m->header.frame_id, m->info.resolution, m->info.width,
          m->info.height, m->info.origin.position.x, m->info.origin.position.y, occupied);
+}
+
+static const char* value_of(const diagnostic_msgs_msg_dds__DiagnosticStatus_* s, const char* key) {
+  for (uint32_t i = 0; i < s->values._length; ++i)
+    if (strcmp(s->values._buffer[i].key, key) == 0) return s->values._buffer[i].value;
+  return NULL;
+}
+
+static void print_diagnostics(const void* sample) {
+  const diagnostic_msgs_msg_dds__DiagnosticArray_* m = sample;
+  for (uint32_t i = 0; i < m->status._length; ++i) {
+    const diagnostic_msgs_msg_dds__DiagnosticStatus_* s = &m->status._buffer[i];
+    const char* count = value_of(s, "relocalizations");
+    const char* cause = value_of(s, "relocalization");
+    if (count != NULL && cause != NULL)
+      printf("diagnostics %lld %s %d %s %s\n", nanoseconds(&m->header.stamp), s->name, s->level,
+             count, cause);
+  }
 }
 
 static struct {
@@ -211,6 +229,8 @@ int main(int argc, char** argv) {
       is_stamped ? &geometry_msgs_msg_dds__TwistStamped__desc : &geometry_msgs_msg_dds__Twist__desc,
       0);
   listen_to("clock", true, &rosgraph_msgs_msg_dds__Clock__desc, 0, print_clock);
+  listen_to("diagnostics", true, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, 0,
+            print_diagnostics);
   listen_to("tf", false, &tf2_msgs_msg_dds__TFMessage__desc, 0, print_tf);
   listen_to("tf_static", false, &tf2_msgs_msg_dds__TFMessage__desc, 1, print_static);
   listen_to("odom", false, &nav_msgs_msg_dds__Odometry__desc, 0, print_odometry);
