@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "ReadingMessages.hpp"
@@ -24,6 +25,13 @@ namespace {
 constexpr std::chrono::milliseconds kLook{20};  ///< between looks at odometry that moves nothing
 
 std::int64_t nanoseconds(Timestamp stamp) { return stamp * 1000; }
+
+std::string placeText(const Pose2& pose) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << pose.x << ", " << pose.y << " m, "
+       << std::setprecision(0) << pose.theta / kDegree << " degrees";
+  return text.str();
+}
 
 const SensorData* onlyOf(const SensorContainer& container, std::string_view format,
                          const std::string& what) {
@@ -143,6 +151,8 @@ void LiveLocalization::changeTables(const std::filesystem::path& tables) {
   }
   options_.localization = config;
   localization_ = std::move(changed);
+  relocalizations_.beginFilter();
+  toldStatus_ = 0;
 }
 
 void LiveLocalization::setActive(bool isActive) {
@@ -232,17 +242,28 @@ void LiveLocalization::tellPose(const PoseEstimate& estimate) {
 }
 
 /// Tells how far the localization can be relied on, whenever that changes or was weighed anew.
-void LiveLocalization::tellDiagnostics() {
+/// @param relocalized estimate that was put elsewhere, which is told in any case; or null
+void LiveLocalization::tellDiagnostics(const PoseEstimate* relocalized) {
   const SensorContainer& container = localization_->container();
   const SensorData* track = container.findExactly({"mcl", "LOCALIZATION", "status"});
   const SensorData* bound = container.findExactly({"mcl", "LOCALIZATION", "protection"});
-  if (track == nullptr || bound == nullptr || track->sequence() == toldStatus_ || !isActive_)
-    return;
+  if (track == nullptr || bound == nullptr || !isActive_) return;
+  const bool isNew = track->sequence() != toldStatus_;
+  if (!isNew && relocalized == nullptr) return;
   toldStatus_ = track->sequence();
-  sayStatus(static_cast<const TrackData*>(track)->reading().status);
-  diagnostics_(toCdr(diagnosticsMessage(static_cast<const TrackData*>(track)->reading(),
-                                        static_cast<const ProtectionData*>(bound)->reading(),
-                                        options_.name, {nanoseconds(track->stamp()), ""})));
+  TrackData::Reading reading = static_cast<const TrackData*>(track)->reading();
+  ProtectionData::Reading protection = static_cast<const ProtectionData*>(bound)->reading();
+  Timestamp stamp = track->stamp();
+  if (!isNew) {
+    stamp = relocalized->stamp;
+    reading = {relocalized->status, relocalized->reason, relocalized->quality, relocalized->share};
+    protection = {relocalized->protection.metres, relocalized->protection.radians};
+  }
+  reading.relocalizations = relocalizations_.count();
+  reading.relocalization = relocalizations_.cause();
+  sayStatus(reading.status);
+  diagnostics_(
+      toCdr(diagnosticsMessage(reading, protection, options_.name, {nanoseconds(stamp), ""})));
 }
 
 /// On a thread of DDS, which does not wait for the filter.
@@ -263,14 +284,20 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
     tellPose(*estimate);
     if (isActive_) likelihood_.tell(localization_->robot(), estimate->pose.theta);
   }
-  tellDiagnostics();
   for (const Message& reading : moment.readings)
     if (moment.inOdometry && reading.id == odometry_) lastOdometry_ = reading;
   const Timestamp stamp = moment.readings.front().stamp;
   const auto here = moment.inOdometry ? localization_->estimate(stamp) : std::nullopt;
+  std::optional<RelocalizationCount::Placed> placed;
   // Who drives by it is better off with the place of before than with a guess.
   if (here && here->status != TrackStatus::kLost)
-    transform_.correct(here->smooth * inverse(*moment.inOdometry));
+    placed = {here->smooth * inverse(*moment.inOdometry), *moment.inOdometry};
+  const auto& filter = here ? here : estimate;
+  const bool isRelocalized = filter && relocalizations_.follow(*filter, placed);
+  if (isRelocalized) sayRelocalization(filter->pose);
+  // It is told before the transform steps.
+  tellDiagnostics(isRelocalized ? &*filter : nullptr);
+  if (placed) transform_.correct(placed->odomInMap);
 }
 
 /// Tells on the terminal when the robot was found, and when it is lost.
@@ -279,10 +306,15 @@ void LiveLocalization::sayStatus(TrackStatus status) {
   if (isFound_ ? !isLost : status != TrackStatus::kTracking) return;
   isFound_ = !isLost;
   const auto here = localization_->mcl().estimate();
-  std::cout << std::fixed << std::setprecision(2) << "ortung-ros2: the robot is "
-            << (isLost ? "lost, last" : "found") << " at " << here.pose.x << ", " << here.pose.y
-            << " m, " << std::setprecision(0) << here.pose.theta / kDegree << " degrees"
-            << std::defaultfloat << '\n'
+  std::cout << "ortung-ros2: the robot is " << (isLost ? "lost, last" : "found") << " at "
+            << placeText(here.pose) << '\n'
+            << std::flush;
+}
+
+/// Tells on the terminal that the robot was put elsewhere in the map, and why.
+void LiveLocalization::sayRelocalization(const Pose2& pose) const {
+  std::cout << "ortung-ros2: relocalization " << relocalizations_.count() << " to "
+            << placeText(pose) << ": " << nameOf(relocalizations_.cause()) << '\n'
             << std::flush;
 }
 

@@ -15,6 +15,7 @@
 #include "LiveRequests.hpp"
 #include "MapTransform.hpp"
 #include "Participant.hpp"
+#include "RelocalizationCount.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::ros2 {
@@ -70,11 +71,12 @@ class LiveLocalization {
   void startAt(const LiveRequests::InitialPose& wanted);
   void onMoment(const LiveReadings::Moment& moment);
   void tellPose(const PoseEstimate& estimate);
-  void tellDiagnostics();
+  void tellDiagnostics(const PoseEstimate* relocalized);
   void followOdometry();
   void report();
   void reportSilence();
   void sayStatus(TrackStatus status);
+  void sayRelocalization(const Pose2& pose) const;
   void saveBelief();
 
   Options options_;
@@ -82,6 +84,7 @@ class LiveLocalization {
   const SensorId odometry_;
   LiveReadings readings_;
   MapTransform transform_;
+  RelocalizationCount relocalizations_;
   LiveRequests& requests_;  ///< borrowed
   std::atomic<bool> isActive_ = true;
   std::atomic<bool> tellsTransform_;
