@@ -30,7 +30,9 @@ LiveReadings::LiveReadings(Options options)
       areUpsideDown_(options_.scanners.size()),
       tilts_(kMostWaiting),
       velocities_(kMostWaiting) {
+  for (const Scanner& scanner : options_.scanners) streams_.expect(scanner.feature);
   for (const Lidar& lidar : options_.lidars) {
+    streams_.expect(lidar.feature);
     lidar.band.check();
     clouds_.push_back(std::make_unique<Cloud>());
   }
@@ -51,6 +53,7 @@ void LiveReadings::put(Message message, std::optional<Pose2> inOdometry) {
     lastPose_.reset();
     newestScan_.reset();
     newestOdometry_.reset();
+    streams_.forget();
     tilts_ = TiltHistory(kMostWaiting);
     velocities_ = VelocityHistory(kMostWaiting);
   }
@@ -112,6 +115,7 @@ void LiveReadings::putScan(Message reading, const std::string& topic) {
     return leaveOut(topic + ": more than 1 s ahead of odometry");
   ++taken_[topic];
   newestScan_ = std::max(newestScan_.value_or(reading.stamp), reading.stamp);
+  streams_.take(reading.id, reading.stamp, Clock::now());
   put(std::move(reading), std::nullopt);
   arrived_.notify_all();
 }
@@ -231,13 +235,14 @@ void LiveReadings::takeTransforms(std::string_view cdr, bool isStatic) {
   }
 }
 
-/// Whether the first moment is complete: scans up to it have odometry of their time.
+/// Whether the first moment is complete: scans up to it have odometry of their time, and no other
+/// one has yet to come.
 bool LiveReadings::isReady(Clock::time_point now) const {
   if (waiting_.empty()) return false;
   const auto& [stamp, first] = *waiting_.begin();
   const bool isCovered =
       newestScan_ && newestOdometry_ && stamp <= std::min(*newestScan_, *newestOdometry_);
-  return isCovered || now - first.since >= kPatience;
+  return (isCovered && !streams_.isAwaited(stamp, now)) || now - first.since >= kPatience;
 }
 
 /// Where the robot is in odometry between the last pose that was given and the next that waits.

@@ -15,6 +15,7 @@
 #include "CloudShape.hpp"
 #include "FrameTree.hpp"
 #include "LiveFeatures.hpp"
+#include "ReadingStreams.hpp"
 #include "ScanShape.hpp"
 #include "TiltHistory.hpp"
 #include "VelocityHistory.hpp"
@@ -26,8 +27,9 @@
 namespace ortung::ros2 {
 
 /// Messages of ROS 2 as readings of a robot, in the order of their time, whatever the order in
-/// which they arrive. A scan waits for odometry of its own time, as odometry does for the scan, so
-/// a bag that is played becomes the same moments as if it was read. What comes is not trusted:
+/// which they arrive. A scan waits for odometry of its own time and for other scanners' scans that
+/// are due by then, as odometry does for the scan, so a bag that is played becomes the same moments
+/// as if it was read. What comes is not trusted:
 /// anything that is no such message, does not fit, or is late, is counted and left out.
 /// Thread-safe.
 class LiveReadings {
@@ -90,7 +92,7 @@ class LiveReadings {
   /// What was left out, in words and how often.
   std::map<std::string, std::uint64_t> leftOut() const;
 
-  /// The longest that a scan waits for odometry, and odometry for a scan.
+  /// The longest that a reading waits for others of its time.
   static constexpr std::chrono::milliseconds kPatience{250};
 
  private:
@@ -123,7 +125,8 @@ class LiveReadings {
   std::optional<std::pair<Timestamp, Pose2>>
       lastPose_;  ///< in odometry, of a moment that was given
   std::optional<Timestamp> newestScan_, newestOdometry_;
-  std::size_t late_ = 0;  ///< messages in a row
+  ReadingStreams streams_;  ///< of all but odometry
+  std::size_t late_ = 0;    ///< messages in a row
   std::vector<std::optional<ScanShape>> shapes_;
   std::vector<bool> areUpsideDown_;
   std::vector<std::unique_ptr<Cloud>> clouds_;  ///< by lidar; each with a lock of its own

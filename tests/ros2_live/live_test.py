@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """live_test.py ORTUNG ORTUNG_ROS2 PEER CLIENT DATA  a robot of ROS 2 that knows nothing of ours, a program on Cyclone DDS with types of its own
-generator, says what a real log has, and hears from ortung-ros2 where it is: the same poses as `ortung localize` finds in the log."""
+generator, says what a real log has, and hears from ortung-ros2 where it is: the same poses, bit by bit, as `ortung localize` finds in the log."""
+import json
 import math
 import os
 import pathlib
@@ -76,8 +77,9 @@ def main():
         record = subprocess.run(["zstdcat", "-f", base.with_suffix(".rec")], check=True, capture_output=True, text=True).stdout
         lines = lines_of(record, (folder / "robot.toml").read_text())
         run(ortung, "localize", "--source", "record:%s?to_s=%g" % (base.with_suffix(".rec"), SECONDS), "--robot", folder / "robot.toml", "--tables",
-            folder / "log.ortung", "--out", folder / "poses.txt")
-        expected = [[float(word) for word in line.split()[:4]] for line in (folder / "poses.txt").read_text().splitlines() if line[0] != "#"]
+            folder / "log.ortung", "--format", "json", "--out", folder / "poses.json")
+        found = [json.loads(line) for line in (folder / "poses.json").read_text().splitlines()]
+        expected = [[pose["stamp_us"], pose["x_m"], pose["y_m"], pose["theta_rad"]] for pose in found]  # all digits
 
         known = ["--robot", folder / "robot.toml", "--tables", folder / "log.ortung"]
         # Parameters of Nav2 as they are change nothing.
@@ -170,8 +172,8 @@ def live(folder, arguments, lines, asked=()):
     return [line.split() for line in heard.stdout.splitlines()], said
 
 
-def check(heard, expected, lines, said, tolerance=1e-4, asked=0):  # digits of the file
-    """@param asked how many poses were asked for, at any time"""
+def check(heard, expected, lines, said, tolerance=0.0, asked=0):
+    """@param tolerance of poses; 0: bit by bit @param asked how many poses were asked for, at any time"""
     of = lambda kind: [words[1:] for words in heard if words[0] == kind]
     expect(any(n[:2] == ["/", "amcl"] and int(n[2]) >= 5 and int(n[3]) >= 4 for n in of("node")), "the graph has the node: %s" % of("node"))
     found = {int(us): pose for us, *pose in expected}
@@ -186,8 +188,11 @@ def check(heard, expected, lines, said, tolerance=1e-4, asked=0):  # digits of t
     for stamp, frame, x, y, z, w, *_ in poses:
         expect(int(stamp) % 1000 == 0 and int(stamp) // 1000 in found and frame == "map", "a pose at %s in %s" % (stamp, frame))
         ex, ey, et = found[int(stamp) // 1000]
-        off = max(abs(float(x) - ex), abs(float(y) - ey), abs(math.remainder(heading(z, w) - et, math.tau)))
-        expect(off < tolerance, "the pose at %s is %s, %s, expected %s, %s" % (stamp, x, y, ex, ey))
+        if tolerance:
+            is_same = max(abs(float(x) - ex), abs(float(y) - ey), abs(math.remainder(heading(z, w) - et, math.tau))) < tolerance
+        else:
+            is_same = (float(x), float(y), float(z), float(w)) == (ex, ey, math.sin(et / 2), math.cos(et / 2))
+        expect(is_same, "the pose at %s is %s, %s, expected %s, %s" % (stamp, x, y, ex, ey))
     for stamp, count, total in clouds:
         expect(int(count) >= 100 and abs(float(total) - 1.0) < 1e-6, "%s particles of weight %s" % (count, total))
     said_at = {int(stamp): float(at) for stamp, at in of("said")}
