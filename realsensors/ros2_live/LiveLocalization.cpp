@@ -132,25 +132,30 @@ void LiveLocalization::saveBelief() {
   }
 }
 
-void LiveLocalization::changeTables(const std::filesystem::path& tables) {
+std::unique_ptr<Localization> LiveLocalization::open(const std::filesystem::path& tables) const {
   LocalizationConfig config = options_.localization;
   config.tables = tables;
-  auto changed = std::make_unique<Localization>(config);
-  changed->wantSamples(true);
+  auto opened = std::make_unique<Localization>(config);
+  opened->wantSamples(true);
+  return opened;
+}
+
+void LiveLocalization::changeTables(std::unique_ptr<Localization> opened,
+                                    const std::filesystem::path& tables) {
   const auto here = lastOdometry_ ? localization_->estimate(lastOdometry_->stamp) : std::nullopt;
   // Maps of one building have one frame, as a rule; if not, readings will show it.
   if (here && here->status != TrackStatus::kLost) {
     try {
-      changed->take(std::span(&*lastOdometry_, 1));  // from which odometry goes on
-      changed->followOdometry();
-      changed->setPose(here->pose, here->covariance);
+      opened->take(std::span(&*lastOdometry_, 1));  // from which odometry goes on
+      opened->followOdometry();
+      opened->setPose(here->pose, here->covariance);
     } catch (const std::invalid_argument&) {
       std::cerr << "ortung-ros2: the new map has no room where the robot is; it is searched for"
                 << '\n';
     }
   }
-  options_.localization = config;
-  localization_ = std::move(changed);
+  options_.localization.tables = tables;
+  localization_ = std::move(opened);
   relocalizations_.beginFilter();
   toldStatus_ = 0;
 }

@@ -52,9 +52,12 @@ class LiveLocalization {
   /// Reads and tells by a node, whose threads use this from then on: it goes first.
   /// @throws std::runtime_error of DDS
   void listen(Participant& node);
-  /// Goes on in another world, or with other tables of this one, from where the robot is now.
-  /// @throws like Localization; then nothing has changed
-  void changeTables(const std::filesystem::path& tables);
+  /// Opens the robot with other tables, for changeTables(). That takes its time, so any one thread
+  /// may do it while another is in run(). @throws like Localization
+  std::unique_ptr<Localization> open(const std::filesystem::path& tables) const;
+  /// Goes on with what open() has made of @p tables, of another world or of this one, from where
+  /// the robot is now. Nothing that is read meanwhile is lost.
+  void changeTables(std::unique_ptr<Localization> opened, const std::filesystem::path& tables);
 
   /// Whether it tells where the robot is, which it does at first. Thread-safe.
   void setActive(bool isActive);

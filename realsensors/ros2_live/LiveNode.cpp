@@ -2,12 +2,22 @@
 
 #include <chrono>
 #include <future>
+#include <iomanip>
 #include <iostream>
 #include <utility>
 
 #include "LiveLearning.hpp"
 
 namespace ortung::ros2 {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace
 
 LiveNode::LiveNode(Options options)
     : options_(std::move(options)),
@@ -97,6 +107,27 @@ std::optional<std::filesystem::path> LiveNode::learn() {
   return tables;
 }
 
+/// Learns another map beside the localization, which uses the tables of before meanwhile.
+/// @return nothing if the program was told to stop
+std::optional<LiveNode::Learned> LiveNode::learnAnother() {
+  const Clock::time_point begin = Clock::now();
+  const auto tables = learn();
+  if (!tables) return std::nullopt;
+  auto opened = localization_->open(*tables);
+  return Learned{*tables, std::move(opened), secondsSince(begin)};
+}
+
+/// Goes on with what was learned, and tells how long readings have waited for that.
+void LiveNode::use(Learned learned) {
+  const Clock::time_point begin = Clock::now();
+  localization_->changeTables(std::move(learned.opened), learned.tables);
+  std::cout << "ortung-ros2: the map is learned, in " << std::fixed << std::setprecision(2)
+            << learned.seconds << " s; readings have waited for " << std::setprecision(1)
+            << 1000.0 * secondsSince(begin) << std::defaultfloat << " ms" << '\n'
+            << std::flush;
+  options_.localization.localization.tables = std::move(learned.tables);
+}
+
 bool LiveNode::hasNewMap() const {
   return setup_ && !(settings_.isFirstMapOnly && learned_ > 0) && setup_->hasNewMap();
 }
@@ -119,7 +150,8 @@ void LiveNode::applySettings() {
   if (!isOtherRobot) return;
   try {
     writeRobot();
-    localization_->changeTables(options_.localization.localization.tables);
+    const std::filesystem::path& tables = options_.localization.localization.tables;
+    localization_->changeTables(localization_->open(tables), tables);
   } catch (const std::exception& error) {
     std::cerr << "ortung-ros2: parameters: " << error.what() << '\n';
   }
@@ -148,7 +180,7 @@ void LiveNode::run(const std::function<bool()>& isStopped) {
 /// Localizes until the program is stopped; a new map is learned meanwhile, since the robot drives
 /// on.
 void LiveNode::localize() {
-  std::future<std::optional<std::filesystem::path>> learning;
+  std::future<std::optional<Learned>> learning;
   const auto isLearned = [&] {
     return learning.valid() &&
            learning.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -165,14 +197,11 @@ void LiveNode::localize() {
     if (!isLearned()) {
       if (learning.valid() || !hasNewMap()) continue;
       std::cout << "ortung-ros2: another map" << '\n' << std::flush;
-      learning = std::async(std::launch::async, [this] { return learn(); });
+      learning = std::async(std::launch::async, [this] { return learnAnother(); });
       continue;
     }
     try {
-      if (const auto tables = learning.get()) {
-        localization_->changeTables(*tables);
-        options_.localization.localization.tables = *tables;
-      }
+      if (auto learned = learning.get()) use(std::move(*learned));
     } catch (const std::exception& error) {
       std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what() << '\n';
     }

@@ -42,9 +42,18 @@ class LiveNode {
   void run(const std::function<bool()>& isStopped);
 
  private:
+  /// What was learned of another map, while the robot drives on.
+  struct Learned {
+    std::filesystem::path tables;
+    std::unique_ptr<Localization> opened;
+    double seconds = 0.0;  ///< that it took
+  };
+
   void onTransition(Lifecycle::Transition transition, Lifecycle::State state);
   void listenForMap();
   std::optional<std::filesystem::path> learn();
+  std::optional<Learned> learnAnother();
+  void use(Learned learned);
   bool goOnWaiting();
   void localize();
   bool hasNewMap() const;

@@ -107,6 +107,7 @@ def main():
         expect("particles = 5000" in (folder / "cache" / "robot.toml").read_text(), "a parameter that was set while it ran")
         expect(said[0].count("localizing") == 1 and said[0].count("another map") == 1, "a map that replaces another: %s" % said[0])
         check(heard, expected, lines, said, 0.15, asked=1)  # of other samples
+        check_change(heard, expected, said)
         # A map that is turned about its lower left corner: so are the poses.
         x, y, yaw = float(x), float(y), 0.65
         told = ["map %s %s %r %r %r" % (base.with_suffix(".pgm"), yaml["resolution"], x, y, yaw), lines[0], "sample " + first, "ready", *lines[1:]]
@@ -218,6 +219,17 @@ def check(heard, expected, lines, said, tolerance=0.0, asked=0):
             *[1000 * sorted(took)[int(share * (len(took) - 1))] for share in (0.5, 0.95, 1.0)],))
     check_transforms(of("tf"), poses, [line.split() for line in lines if line.startswith("odom")])
     expect(all(name == "amcl" for _, _, name, *_ in of("diagnostics")) and of("diagnostics"), "diagnostics name the node")
+
+
+def check_change(heard, expected, said):
+    """A map that replaces another takes no scan away; the terminal says how long readings have waited for it."""
+    waited = re.search(r"the map is learned, in ([0-9.]+) s; readings have waited for ([0-9.]+) ms", said[0])
+    expect(waited, "what the change of maps took: %s" % said[0])
+    print("another map: learned in %s s, readings have waited for %s ms" % waited.groups())
+    clouds = {int(words[1]) // 1000 for words in heard if words[0] == "particles"}
+    missing = [us for us, *_ in expected[1:] if us not in clouds]  # where the robot is found takes other samples longer, or less
+    expect(not missing, "no particles at %s" % missing)
+    expect(re.search(r"relocalization \d+ to .*: a pose was given", said[0]), "the filter begins anew, which is told: %s" % said[0])
 
 
 def check_transforms(transforms, poses, odometry):
