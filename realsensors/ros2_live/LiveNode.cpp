@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <utility>
+#include <vector>
 
 #include "LiveLearning.hpp"
 
@@ -24,6 +25,7 @@ LiveNode::LiveNode(Options options)
       makesRobot_(options_.localization.localization.robot.empty()),
       settings_(options_.parameters.settings()),
       requests_(options_.localization.map),
+      tables_(options_.folder),
       isActive_(settings_.startsItself),
       bond_(options_.node.names.node, settings_.heartbeatSeconds),
       node_(options_.node) {
@@ -102,8 +104,17 @@ std::optional<std::filesystem::path> LiveNode::learn() {
     for (std::string& cloud : options_.localization.clouds)
       if (cloud.find('=') == cloud.npos) cloud += "=" + LiveSetup::featureOf(cloud);
   }
-  auto tables = options_.folder / ("map" + std::to_string(++learned_ % 2) + ".ortung");
+  ++learned_;
+  std::vector<std::filesystem::path> sources = {world, world, world};
+  sources[1].replace_extension(".yaml");
+  sources[2].replace_extension(".pgm");
+  // Of a robot file that is made, filter and motion change, of which tables are not made.
+  if (!makesRobot_) sources.push_back(robot);
+  const std::uint64_t key = LearnedMaps::keyOf(sources);
+  if (auto known = tables_.find(key)) return known;
+  auto tables = tables_.fileForNext();
   if (!learnTables(world, robot, tables, goOn)) return std::nullopt;
+  tables_.keep(key, tables);
   return tables;
 }
 

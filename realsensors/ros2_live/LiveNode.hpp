@@ -13,6 +13,7 @@
 
 #include "AmclParameters.hpp"
 #include "Bond.hpp"
+#include "LearnedMaps.hpp"
 #include "Lifecycle.hpp"
 #include "LiveLocalization.hpp"
 #include "LiveRequests.hpp"
@@ -72,6 +73,7 @@ class LiveNode {
 
   // The node goes first, since its threads use the others.
   LiveRequests requests_;
+  LearnedMaps tables_;
   std::atomic<bool> isActive_;
   Bond bond_;
   std::optional<Lifecycle> lifecycle_;
