@@ -335,12 +335,13 @@ TEST_F(Tables, AForgedBuildingIsRefusedWithAReason) {
     return "{" + floors + ", \"lifts\": [{\"name\": \"A\", \"radius_m\": 1, \"stops\": [" + stops +
            "]}]}";
   };
-  const std::string first = "{\"floor\": 0, \"pose\": [1, 0, 0]}, ";
+  const std::string only = "{\"floor\": 0, \"pose\": [1, 0, 0]}";
+  const std::string first = only + ", ";
   EXPECT_EQ(with("{" + floors + ", \"lifts\": []}"), "(nothing was thrown)");
   EXPECT_EQ(with(liftAt(first + "{\"floor\": 1, \"pose\": [10, 0, 0]}")), "(nothing was thrown)");
   for (const std::string& building :
        {std::string("3"), std::string("{}"), "{" + floors + "}",
-        std::string("{\"floors\": [{\"name\": 1}], \"lifts\": []}"), liftAt(first),
+        std::string("{\"floors\": [{\"name\": 1}], \"lifts\": []}"), liftAt(only),
         liftAt(first + "{\"floor\": -1, \"pose\": [10, 0, 0]}"),
         liftAt(first + "{\"floor\": 1, \"pose\": [10, 0]}"),
         liftAt(first + "{\"floor\": 1, \"pose\": [null, 0, 0]}"),

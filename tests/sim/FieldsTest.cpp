@@ -30,7 +30,7 @@ TEST(Fields, AllLoadAndCanBeDrivenOn) {
     EXPECT_NO_THROW(world->region(0.1, {0.25}).check()) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 6);
+  EXPECT_EQ(count, 7);
 }
 
 TEST(Fields, F2000HasPostsAndGoalsWhereTheRulesPutThem) {
