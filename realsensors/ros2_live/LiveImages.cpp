@@ -17,7 +17,7 @@ namespace {
 struct Encoding {
   std::string_view name;
   std::size_t bytes;
-  std::array<std::size_t, 3> order;  ///< where red, green and blue are; grey is the first alone
+  std::array<std::size_t, 3> order;  ///< place of red, green and blue; grey is the first alone
   PixelFormat format;
 };
 constexpr std::array kEncodings{Encoding{"rgb8", 3, {0, 1, 2}, PixelFormat::kRgb},

@@ -32,7 +32,7 @@ class LiveNode {
     Participant::Options node;
     AmclParameters parameters;
     std::string map = "map";       ///< topic of the map
-    std::filesystem::path folder;  ///< for what is made of the map
+    std::filesystem::path folder;  ///< folder for what is made of the map
   };
 
   /// @param options its settings, where they are amcl's, stand in all parts of it
@@ -65,7 +65,7 @@ class LiveNode {
   Options options_;
   const bool makesRobot_;     ///< whether the robot file is made of messages
   AmclSettings settings_;     ///< in force
-  mutable std::mutex mutex_;  ///< for wanted_
+  mutable std::mutex mutex_;  ///< guards wanted_
   std::optional<AmclSettings> wanted_;
   std::function<bool()> isStopped_;
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();

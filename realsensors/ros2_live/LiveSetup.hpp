@@ -71,7 +71,7 @@ class LiveSetup {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::optional<OccupancyGrid> newMap_;
-  std::size_t mapDigest_ = 0;  ///< of the newest map's bytes
+  std::size_t mapDigest_ = 0;  ///< digest of the newest map's bytes
   std::vector<std::optional<LaserScan>> scans_;
   std::vector<std::optional<std::string>> cloudFrames_;  ///< frame of each lidar
   FrameTree frames_;

@@ -40,7 +40,7 @@ void onSignal(int) { isStopped = true; }
 /// What the command line says.
 struct Arguments {
   LiveNode::Options node;
-  std::vector<std::filesystem::path> files;  ///< of parameters
+  std::vector<std::filesystem::path> files;  ///< files of parameters
   std::string start;                         ///< "": as parameters say
   std::string band;                          ///< heights of clouds
   std::string distro = ortung::ros2::releaseHere();

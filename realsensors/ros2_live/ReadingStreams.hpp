@@ -32,14 +32,14 @@ class ReadingStreams {
     SensorId id;
     std::optional<Timestamp> newest;
     Clock::time_point arrived;
-    std::array<Timestamp, 8> periods{};  ///< between the newest readings, as a ring [us]
-    std::size_t count = 0;               ///< of periods so far
+    std::array<Timestamp, 8> periods{};  ///< times between the newest readings, as a ring [us]
+    std::size_t count = 0;               ///< number of periods so far
   };
   Stream& streamOf(const SensorId& id);
   static Timestamp periodOf(const Stream& stream);
 
   std::vector<Stream> streams_;
-  std::optional<Clock::time_point> begin_;  ///< when the first reading came
+  std::optional<Clock::time_point> begin_;  ///< time at which the first reading came
 };
 
 }  // namespace ortung::ros2

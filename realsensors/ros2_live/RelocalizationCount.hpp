@@ -17,7 +17,7 @@ class RelocalizationCount {
   /// What is going to be told of a moment.
   struct Placed {
     Pose2 odomInMap;
-    Pose2 robotInOdom;  ///< by which the transform's step is that of the robot
+    Pose2 robotInOdom;  ///< makes the transform's step that of the robot
   };
 
   /// Another filter begins, which counts anew.
@@ -27,12 +27,12 @@ class RelocalizationCount {
   bool follow(const PoseEstimate& filter, const std::optional<Placed>& placed);
 
   std::uint32_t count() const { return count_; }
-  Relocalization cause() const { return cause_; }  ///< of the newest one
+  Relocalization cause() const { return cause_; }  ///< cause of the newest one
 
  private:
   std::uint32_t ofFilter_ = 0, count_ = 0;
   Relocalization cause_ = Relocalization::kNone;
-  std::optional<Pose2> odomInMap_;  ///< that was told last
+  std::optional<Pose2> odomInMap_;  ///< what was told last
 };
 
 }  // namespace ortung::ros2

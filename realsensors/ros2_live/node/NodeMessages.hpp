@@ -45,7 +45,7 @@ struct TransitionEvent {
 struct BondStatus {
   static constexpr std::string_view kType = "bond/msg/Status";
   Header header;
-  std::string id;        ///< of the bond
+  std::string id;        ///< name of the bond
   std::string instance;  ///< of the side
   bool isActive = false;
   float timeout = 0.0F;  ///< after which the other side is dead [s]
