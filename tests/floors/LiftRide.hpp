@@ -58,15 +58,16 @@ class LiftRide {
   template <class Take>
   void driveTo(double x, double y, Take& take) {
     turn(wrapAngle(std::atan2(y - pose_.y, x - pose_.x) - pose_.theta), take);
-    for (double left; (left = std::hypot(x - pose_.x, y - pose_.y)) > 1e-3;)
-      take(step({std::min(left, 0.6 * kPeriod), 0, 0}));
+    constexpr double kMost = 0.6 * kPeriod;
+    for (double left = std::hypot(x - pose_.x, y - pose_.y); left > 1e-3; left -= kMost)
+      take(step({std::min(left, kMost), 0, 0}));
   }
   /// Turns where it stands [rad].
   template <class Take>
   void turn(double angle, Take& take) {
     constexpr double kMost = 1.0 * kPeriod;
-    for (; std::abs(angle) > 1e-3; angle -= std::clamp(angle, -kMost, kMost))
-      take(step({0, 0, std::clamp(angle, -kMost, kMost)}));
+    for (double left = std::abs(angle); left > 1e-6; left -= kMost)
+      take(step({0, 0, std::copysign(std::min(left, kMost), angle)}));
   }
   template <class Take>
   void stand(double seconds, Take& take) {
