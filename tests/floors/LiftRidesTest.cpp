@@ -176,7 +176,8 @@ class LiftRides : public ::testing::Test {
 TEST_F(LiftRides, EndOnTheRightFloor) {
   const Figures figures = manyRides(false);
   EXPECT_EQ(figures.confidentlyWrong, 0);
-  EXPECT_EQ(figures.rightOutside, figures.runs);
+  EXPECT_EQ(figures.rightAtThird + figures.unsureAtThird, figures.runs);
+  EXPECT_GE(100 * figures.rightOutside, 99 * figures.runs);
   EXPECT_EQ(figures.trackedAtEnd, figures.runs);
 }
 
