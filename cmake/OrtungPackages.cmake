@@ -229,7 +229,8 @@ macro(ortung_make_packages)
       "odometry, frames and the map, and tells the transform from map to odometry,"
       "with amcl's parameters, services and lifecycle. It talks DDS itself, so no"
       "part of ROS has to be installed.")
-    install(FILES realsensors/ros2_live/launch/localization.launch.py DESTINATION ${CMAKE_INSTALL_DATADIR}/ortung/launch
+    install(FILES realsensors/ros2_live/launch/localization.launch.py realsensors/ros2_live/launch/floors.launch.py
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/ortung/launch
             COMPONENT ortung-ros2)
   endif()
   if(TARGET ortung_python)

@@ -46,7 +46,28 @@ OccupancyGrid LikelihoodMap::of(const FieldRegion& region, const Weighers& readi
   return map;
 }
 
-void LikelihoodMap::tell(const Robot& robot, double heading) {
+FieldRegion LikelihoodMap::partOf(const FieldRegion& region, const Floor& floor) {
+  const FieldGrid& whole = region.grid;
+  const auto columnAt = [&](double x) {
+    const double column = std::floor((x - whole.originX) / whole.cell + 0.5);
+    return static_cast<int>(std::clamp(column, 0.0, static_cast<double>(whole.columns)));
+  };
+  const int first = columnAt(floor.xLow);
+  const int columns = columnAt(floor.xHigh) - first;
+  FieldRegion part;
+  part.grid = {whole.originX + first * whole.cell, whole.originY, whole.cell, columns, whole.rows};
+  for (int row = 0; row < whole.rows; ++row) {
+    const auto begin = static_cast<std::ptrdiff_t>(row) * whole.columns + first;
+    const auto copy = [&](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
+      to.insert(to.end(), from.begin() + begin, from.begin() + begin + columns);
+    };
+    copy(region.open, part.open);
+    copy(region.standable, part.standable);
+  }
+  return part;
+}
+
+void LikelihoodMap::tell(const Robot& robot, double heading, const std::optional<Floor>& floor) {
   const auto now = std::chrono::steady_clock::now();
   const bool isBusy =
       making_.valid() && making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
@@ -61,13 +82,17 @@ void LikelihoodMap::tell(const Robot& robot, double heading) {
     stamp = std::max(stamp, data->stamp());
   }
   if (features.empty()) return;
-  making_ = std::async(std::launch::async, [this, stamp, heading, readings = weighersOf(features),
-                                            region = coarsened(robot.tables.region, kMostCells)] {
-    OccupancyGrid map = of(region, readings, heading);
-    map.header = {1000 * stamp, frame_};
-    map.mapLoadTime = map.header.stamp;
-    send_(toCdr(map));
-  });
+  const FieldRegion& field = robot.tables.region;
+  making_ = std::async(
+      std::launch::async,
+      [this, stamp, heading, readings = weighersOf(features), shift = floor ? floor->shift : 0.0,
+       region = coarsened(floor ? partOf(field, *floor) : field, kMostCells)] {
+        OccupancyGrid map = of(region, readings, heading);
+        map.origin.position.x -= shift;
+        map.header = {1000 * stamp, frame_};
+        map.mapLoadTime = map.header.stamp;
+        send_(toCdr(map));
+      });
 }
 
 }  // namespace ortung::ros2

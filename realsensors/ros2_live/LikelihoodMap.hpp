@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "ortung/ros2/Messages.hpp"
 #include "ortung/run/FieldMaps.hpp"
 #include "ortung/run/Robot.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung::ros2 {
 
@@ -27,14 +29,17 @@ class LikelihoodMap {
 
   void connect(Participant& node);
   /// Tells the map of the robot's present readings, if it is time to and somebody reads it.
-  /// @param heading of the robot [rad]
-  void tell(const Robot& robot, double heading);
+  /// @param heading of the robot [rad] @param floor that is told, in its own frame; nothing: all
+  void tell(const Robot& robot, double heading, const std::optional<Floor>& floor = {});
 
   /// Waits until the map that is being made is told; before what tells it ends.
   void finish();
 
   /// The map of some readings. @param region whose open cells count
   static OccupancyGrid of(const FieldRegion& region, const Weighers& readings, double heading);
+
+  /// The part of a region that is a floor's, at its place in the field.
+  static FieldRegion partOf(const FieldRegion& region, const Floor& floor);
 
   static constexpr const char* kTopic = "likelihood_map";
   static constexpr std::size_t kMostCells = 250'000;

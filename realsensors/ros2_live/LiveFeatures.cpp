@@ -40,15 +40,17 @@ Message readRange(std::string_view cdr, const SensorId& feature, double maxRange
   return {stampOf(told.header), feature, {wordOf(told, maxRange)}};
 }
 
-Message readFix(std::string_view cdr, const SensorId& feature, const std::string& map) {
+Message readFix(std::string_view cdr, const SensorId& feature, const std::string& map,
+                const std::function<Pose2(const Pose2&)>& toField) {
   const auto told = decoded<PoseWithCovarianceStamped>(cdr);
   if (told.header.frame != map)
     throw std::invalid_argument("a pose in '" + told.header.frame + "', expected '" + map + "'");
-  const PoseFixData::Fix fix{toPose2(told.pose), toPlane(told.covariance)};
+  PoseFixData::Fix fix{toPose2(told.pose), toPlane(told.covariance)};
   bool isSound = isPlausible(fix.pose);
   for (const double value : fix.covariance) isSound = isSound && std::abs(value) <= 1e12;
   for (const std::size_t diagonal : {0, 4, 8}) isSound = isSound && fix.covariance[diagonal] >= 0.0;
   if (!isSound) throw std::invalid_argument("a pose or covariance that is none");
+  if (toField) fix.pose = toField(fix.pose);
   return {stampOf(told.header), feature, PoseFixData::encode(std::span(&fix, 1))};
 }
 
@@ -67,7 +69,8 @@ Timestamp stampOf(const Header& header) {
 std::string topicOf(const std::string& text) { return text.substr(0, text.find('=')); }
 
 LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& text,
-                          const std::string& map) {
+                          const std::string& map,
+                          const std::function<Pose2(const Pose2&)>& toField) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos || equals == 0)
     throw std::invalid_argument(text + ": expected TOPIC=MODEL/TYPE/FEATURE");
@@ -84,7 +87,9 @@ LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& t
     };
   } else if (format.name() == formats::kFix) {
     found.type = PoseWithCovarianceStamped::kType;
-    found.read = [id, map](std::string_view cdr) { return readFix(cdr, id, map); };
+    found.read = [id, map, toField](std::string_view cdr) {
+      return readFix(cdr, id, map, toField);
+    };
   } else if (format.name() == formats::kImage) {
     found.type = Image::kType;
     found.read = [id, size = sizeIn(format)](std::string_view cdr) -> Message {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "ortung/base/Pose2.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Message.hpp"
 #include "ortung/core/SensorContainer.hpp"
@@ -30,9 +31,10 @@ struct LiveFeature {
 /// Finds the feature of TOPIC=MODEL/TYPE/FEATURE, whose format says which messages there are: a
 /// cone has sensor_msgs/Range, a fix geometry_msgs/PoseWithCovarianceStamped of the robot's base, a
 /// picture sensor_msgs/Image.
-/// @param map frame in which fixes are
+/// @param map frame in which fixes are @param toField converts poses in that frame to the field's
 /// @throws std::invalid_argument if the container has no such feature, or if no message fills it
 LiveFeature liveFeatureOf(const SensorContainer& container, const std::string& text,
-                          const std::string& map);
+                          const std::string& map,
+                          const std::function<Pose2(const Pose2&)>& toField = {});
 
 }  // namespace ortung::ros2

@@ -13,7 +13,6 @@
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ProtectionData.hpp"
-#include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/formats/TrackData.hpp"
 #include "ortung/ros2/Messages.hpp"
@@ -82,7 +81,8 @@ LiveReadings::Lidar lidarOf(const SensorContainer& container, const std::string&
 }  // namespace
 
 LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
-                                                   const SensorContainer& container) {
+                                                   const SensorContainer& container,
+                                                   const LiveFloors& floors) {
   LiveReadings::Options wanted;
   wanted.base = options.base;
   wanted.odom = options.odom;
@@ -98,7 +98,9 @@ LiveReadings::Options LiveLocalization::readingsOf(const Options& options,
     wanted.lidars.push_back(lidarOf(container, cloud, options.bands));
   wanted.level = options.level;
   for (const std::string& feature : options.features)
-    wanted.features.push_back(liveFeatureOf(container, feature, options.map));
+    wanted.features.push_back(
+        liveFeatureOf(container, feature, options.map,
+                      [&floors](const Pose2& pose) { return floors.toField(pose); }));
   return wanted;
 }
 
@@ -106,12 +108,13 @@ LiveLocalization::LiveLocalization(const Options& options, LiveRequests& request
     : options_(options),
       localization_(std::make_unique<Localization>(options.localization)),
       odometry_(onlyOf(localization_->container(), formats::kOdometry, options.odometry)->id()),
-      readings_(readingsOf(options, localization_->container())),
+      readings_(readingsOf(options, localization_->container(), floors_)),
       transform_({options.map, options.odom, options.transformTolerance}),
       requests_(requests),
       tellsTransform_(options.tellsTransform),
       likelihood_(options.map) {
   localization_->wantSamples(true);
+  floors_.enter(localization_->robot().tables.region.building);
   setActive(true);
   if (options.belief.empty() || options.startsAnew || !std::filesystem::exists(options.belief))
     return;
@@ -141,19 +144,23 @@ std::unique_ptr<Localization> LiveLocalization::open(const std::filesystem::path
 }
 
 void LiveLocalization::changeTables(std::unique_ptr<Localization> opened,
-                                    const std::filesystem::path& tables) {
+                                    const std::filesystem::path& tables, const std::string& floor) {
   const auto here = lastOdometry_ ? localization_->estimate(lastOdometry_->stamp) : std::nullopt;
+  const Building& building = opened->robot().tables.region.building;
+  const auto there = here ? floors_.carried(here->pose, building, floor) : std::nullopt;
   // Maps of one building have one frame, as a rule; if not, readings will show it.
-  if (here && here->status != TrackStatus::kLost) {
+  if (there && here->status != TrackStatus::kLost) {
     try {
       opened->take(std::span(&*lastOdometry_, 1));  // from which odometry goes on
       opened->followOdometry();
-      opened->setPose(here->pose, here->covariance);
+      opened->setPose(*there, here->covariance);
     } catch (const std::invalid_argument&) {
       std::cerr << "ortung-ros2: the new map has no room where the robot is; it is searched for"
                 << '\n';
     }
   }
+  floors_.enter(building, floor);
+  seeker_.seek(floor);
   options_.localization.tables = tables;
   localization_ = std::move(opened);
   relocalizations_.beginFilter();
@@ -211,7 +218,7 @@ void LiveLocalization::listenForClouds(Participant& node) {
 
 void LiveLocalization::startAt(const LiveRequests::InitialPose& wanted) {
   try {
-    localization_->setPose(wanted.pose, wanted.covariance);
+    localization_->setPose(floors_.toField(wanted.pose), wanted.covariance);
   } catch (const std::exception& error) {
     std::cerr << "ortung-ros2: initial pose: " << error.what() << '\n';
   }
@@ -222,28 +229,20 @@ void LiveLocalization::obey() {
   const LiveRequests::Asked asked = requests_.take();
   if (asked.isConfigured && options_.startsAnew) localization_->start(options_.localization.start);
   if (asked.relocalizes) localization_->relocalize();
+  if (asked.floor)
+    seeker_.goTo(*asked.floor, *localization_, lastOdometry_, options_.localization.start);
   if (asked.pose) startAt(*asked.pose);
   if (!asked.tellsNow || !lastOdometry_) return;
   if (const auto here = localization_->estimate(lastOdometry_->stamp)) tellPose(*here);
 }
 
 void LiveLocalization::tellPose(const PoseEstimate& estimate) {
-  if (!isActive_) return;
+  if (!isActive_ || !floors_.isHere(estimate.pose)) return;
   const Header header{nanoseconds(estimate.stamp), options_.map};
-  pose_(toCdr(
-      PoseWithCovarianceStamped{header, fromPose2(estimate.pose), fromPlane(estimate.covariance)}));
-  const SensorContainer& container = localization_->container();
-  if (const SensorData* data = container.findExactly({"mcl", "LOCALIZATION", "samples"})) {
-    ParticleCloud cloud{header, {}};
-    double sum = 0.0;
-    for (const auto& sample : static_cast<const SamplesData*>(data)->reading()) {
-      cloud.particles.push_back({fromPose2(sample.pose), sample.weight});
-      sum += sample.weight;
-    }
-    if (cloud.particles.empty() || !(sum > 0.0)) return;  // nothing was weighed yet
-    for (Particle& particle : cloud.particles) particle.weight /= sum;
-    particles_(toCdr(cloud));
-  }
+  pose_(toCdr(PoseWithCovarianceStamped{header, fromPose2(floors_.fromField(estimate.pose)),
+                                        fromPlane(estimate.covariance)}));
+  if (const auto cloud = particlesOn(floors_.frame(), localization_->container(), header))
+    particles_(toCdr(*cloud));
 }
 
 /// Tells how far the localization can be relied on, whenever that changes or was weighed anew.
@@ -267,8 +266,10 @@ void LiveLocalization::tellDiagnostics(const PoseEstimate* relocalized) {
   reading.relocalizations = relocalizations_.count();
   reading.relocalization = relocalizations_.cause();
   sayStatus(reading.status);
-  diagnostics_(
-      toCdr(diagnosticsMessage(reading, protection, options_.name, {nanoseconds(stamp), ""})));
+  DiagnosticArray told =
+      diagnosticsMessage(reading, protection, options_.name, {nanoseconds(stamp), ""});
+  floors_.describe(told.status.front());
+  diagnostics_(toCdr(told));
 }
 
 /// On a thread of DDS, which does not wait for the filter.
@@ -286,8 +287,11 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   }
   const auto estimate = localization_->update();
   if (estimate) {
+    seeker_.onEstimate(*localization_);
+    floors_.follow(*estimate, localization_->mcl().samples());
+    tellFloor();
     tellPose(*estimate);
-    if (isActive_) likelihood_.tell(localization_->robot(), estimate->pose.theta);
+    if (isActive_) likelihood_.tell(localization_->robot(), estimate->pose.theta, floors_.frame());
   }
   for (const Message& reading : moment.readings)
     if (moment.inOdometry && reading.id == odometry_) lastOdometry_ = reading;
@@ -295,8 +299,10 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   const auto here = moment.inOdometry ? localization_->estimate(stamp) : std::nullopt;
   std::optional<RelocalizationCount::Placed> placed;
   // Who drives by it is better off with the place of before than with a guess.
-  if (here && here->status != TrackStatus::kLost)
-    placed = {here->smooth * inverse(*moment.inOdometry), *moment.inOdometry};
+  if (here && here->status != TrackStatus::kLost && floors_.isHere(here->pose)) {
+    const Pose2& pose = floors_.isHere(here->smooth) ? here->smooth : here->pose;
+    placed = {floors_.fromField(pose) * inverse(*moment.inOdometry), *moment.inOdometry};
+  }
   const auto& filter = here ? here : estimate;
   const bool isRelocalized = filter && relocalizations_.follow(*filter, placed);
   if (isRelocalized) sayRelocalization(filter->pose);
@@ -309,18 +315,19 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
 void LiveLocalization::sayStatus(TrackStatus status) {
   const bool isLost = status == TrackStatus::kLost;
   if (isFound_ ? !isLost : status != TrackStatus::kTracking) return;
+  const Pose2 inField = localization_->mcl().estimate().pose;
+  if (!floors_.isHere(inField)) return;  // of no map that anybody has
   isFound_ = !isLost;
-  const auto here = localization_->mcl().estimate();
   std::cout << "ortung-ros2: the robot is " << (isLost ? "lost, last" : "found") << " at "
-            << placeText(here.pose) << '\n'
+            << placeText(floors_.fromField(inField)) << '\n'
             << std::flush;
 }
 
 /// Tells on the terminal that the robot was put elsewhere in the map, and why.
-void LiveLocalization::sayRelocalization(const Pose2& pose) const {
-  std::cout << "ortung-ros2: relocalization " << relocalizations_.count() << " to "
-            << placeText(pose) << ": " << nameOf(relocalizations_.cause()) << '\n'
-            << std::flush;
+void LiveLocalization::sayRelocalization(const Pose2& inField) const {
+  std::cout << "ortung-ros2: relocalization " << relocalizations_.count();
+  if (floors_.isHere(inField)) std::cout << " to " << placeText(floors_.fromField(inField));
+  std::cout << ": " << nameOf(relocalizations_.cause()) << '\n' << std::flush;
 }
 
 /// Names the topics at which nothing has come since the last report, once each time.
@@ -372,6 +379,7 @@ void LiveLocalization::run(const std::function<bool()>& goOn) {
   Clock::time_point saved = reported;
   while (goOn()) {
     obey();
+    tellFloor();
     if (const auto moment = readings_.next(kLook)) onMoment(*moment);
     const Clock::time_point now = Clock::now();
     if (Seconds(now - reported).count() >= options_.reportSeconds) {

@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "CloudBands.hpp"
+#include "FloorSeeker.hpp"
+#include "FloorSpeech.hpp"
 #include "LikelihoodMap.hpp"
+#include "LiveFloors.hpp"
 #include "LiveReadings.hpp"
 #include "LiveRequests.hpp"
 #include "MapTransform.hpp"
@@ -57,7 +60,11 @@ class LiveLocalization {
   std::unique_ptr<Localization> open(const std::filesystem::path& tables) const;
   /// Goes on with what open() has made of @p tables, of another world or of this one, from where
   /// the robot is now. Nothing that is read meanwhile is lost.
-  void changeTables(std::unique_ptr<Localization> opened, const std::filesystem::path& tables);
+  /// @param floor on which the robot is there; "": on the one of the same name
+  void changeTables(std::unique_ptr<Localization> opened, const std::filesystem::path& tables,
+                    const std::string& floor = "");
+  /// The name of the robot's floor; "" if it is not known, or if there are none. Thread-safe.
+  std::string floor() const { return floors_.name(); }
 
   /// Whether it tells where the robot is, which it does at first. Thread-safe.
   void setActive(bool isActive);
@@ -69,21 +76,27 @@ class LiveLocalization {
 
  private:
   void listenForClouds(Participant& node);
-  static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container);
+  static LiveReadings::Options readingsOf(const Options& options, const SensorContainer& container,
+                                          const LiveFloors& floors);
   void obey();
   void startAt(const LiveRequests::InitialPose& wanted);
   void onMoment(const LiveReadings::Moment& moment);
   void tellPose(const PoseEstimate& estimate);
+  void tellFloor() {
+    if (node_ != nullptr) speech_.tell(floors_.name(), *node_, isActive_);
+  }
   void tellDiagnostics(const PoseEstimate* relocalized);
   void followOdometry();
   void report();
   void reportSilence();
   void sayStatus(TrackStatus status);
-  void sayRelocalization(const Pose2& pose) const;
+  void sayRelocalization(const Pose2& inField) const;
   void saveBelief();
 
   Options options_;
   std::unique_ptr<Localization> localization_;
+  LiveFloors floors_;
+  FloorSeeker seeker_{floors_};
   const SensorId odometry_;
   LiveReadings readings_;
   MapTransform transform_;
@@ -93,6 +106,7 @@ class LiveLocalization {
   std::atomic<bool> tellsTransform_;
   Participant* node_ = nullptr;  ///< borrowed
   Participant::Sender pose_, particles_, diagnostics_;
+  FloorSpeech speech_;
   LikelihoodMap likelihood_;
   std::optional<Message> lastOdometry_;  ///< that the localization has
   std::uint64_t toldStatus_ = 0;         ///< sequence of the status that diagnostics had last

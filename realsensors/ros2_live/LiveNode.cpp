@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "LiveLearning.hpp"
+#include "ortung/base/NewFile.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -55,6 +56,32 @@ void LiveNode::onTransition(Lifecycle::Transition transition, Lifecycle::State s
   if (localization_) localization_->setActive(isActive_);
 }
 
+/// Reads the world that the node has itself, and tells its maps.
+void LiveNode::openWorld() {
+  std::filesystem::path file = options_.world;
+  if (!options_.building.empty()) {
+    std::filesystem::create_directories(options_.folder);
+    file = options_.folder / "building.toml";
+    writeFile(file, options_.building);
+  }
+  if (file.empty()) return;
+  maps_.emplace(readOwnWorld(file),
+                LiveMaps::Options{options_.map, options_.localization.map, options_.folder},
+                requests_);
+  maps_->serve(node_);
+}
+
+/// Tells the map of the robot's floor if that is another one now.
+void LiveNode::tellMap() {
+  if (!maps_ || !isActive_) return;
+  std::string floor;
+  {
+    const std::lock_guard lock(localizationMutex_);
+    if (localization_) floor = localization_->floor();
+  }
+  maps_->tell(floor);
+}
+
 void LiveNode::listenForMap() {
   LiveSetup::Options wanted;
   for (const std::string& scan : options_.localization.scans) wanted.scans.push_back(topicOf(scan));
@@ -62,7 +89,7 @@ void LiveNode::listenForMap() {
     wanted.clouds.push_back(topicOf(cloud));
   wanted.bands = options_.localization.bands;
   wanted.base = options_.localization.base;
-  wanted.map = options_.map;
+  wanted.map = maps_ ? "" : options_.map;
   wanted.maxRange = settings_.maxRange;
   setup_.emplace(std::move(wanted), node_);
   std::filesystem::create_directories(options_.folder);
@@ -71,6 +98,7 @@ void LiveNode::listenForMap() {
 /// Tells now and then what a start waits for. @return whether it goes on
 bool LiveNode::goOnWaiting() {
   bond_.tick();
+  if (!next_) tellMap();
   for (const std::string& complaint : setup_->complaints())
     std::cerr << "ortung-ros2: " << complaint << '\n';
   const auto now = std::chrono::steady_clock::now();
@@ -87,14 +115,29 @@ void LiveNode::writeRobot() {
   setup_->writeRobot(options_.localization.localization.robot, settings_.robotToml);
 }
 
+/// What the tables of a world are known by.
+std::uint64_t LiveNode::keyOf(const std::filesystem::path& world) const {
+  if (maps_) return learned_;  // it may be made of any files, and is learned anew
+  std::vector<std::filesystem::path> sources = {world, world, world};
+  sources[1].replace_extension(".yaml");
+  sources[2].replace_extension(".pgm");
+  // Of a robot file that is made, filter and motion change, of which tables are not made.
+  if (!makesRobot_) sources.push_back(options_.localization.localization.robot);
+  return LearnedMaps::keyOf(sources);
+}
+
 /// Waits for what is told of robot and map, and learns.
 /// @return the tables; nothing if the program was told to stop
 std::optional<std::filesystem::path> LiveNode::learn() {
   const auto goOn = [this] { return goOnWaiting(); };
-  if (!setup_->waitForMap(goOn)) return std::nullopt;
-  const std::filesystem::path world = options_.folder / "map.toml";
+  std::filesystem::path world = options_.folder / "map.toml";
   std::filesystem::path& robot = options_.localization.localization.robot;
-  setup_->writeWorld(world);
+  if (maps_) {
+    world = next_ ? next_->world.file : maps_->world().file;
+  } else {
+    if (!setup_->waitForMap(goOn)) return std::nullopt;
+    setup_->writeWorld(world);
+  }
   if (robot.empty()) {
     if (!setup_->waitForScanners(goOn)) return std::nullopt;
     robot = options_.folder / "robot.toml";
@@ -105,12 +148,7 @@ std::optional<std::filesystem::path> LiveNode::learn() {
       if (cloud.find('=') == cloud.npos) cloud += "=" + LiveSetup::featureOf(cloud);
   }
   ++learned_;
-  std::vector<std::filesystem::path> sources = {world, world, world};
-  sources[1].replace_extension(".yaml");
-  sources[2].replace_extension(".pgm");
-  // Of a robot file that is made, filter and motion change, of which tables are not made.
-  if (!makesRobot_) sources.push_back(robot);
-  const std::uint64_t key = LearnedMaps::keyOf(sources);
+  const std::uint64_t key = keyOf(world);
   if (auto known = tables_.find(key)) return known;
   auto tables = tables_.fileForNext();
   if (!learnTables(world, robot, tables, goOn)) return std::nullopt;
@@ -131,7 +169,8 @@ std::optional<LiveNode::Learned> LiveNode::learnAnother() {
 /// Goes on with what was learned, and tells how long readings have waited for that.
 void LiveNode::use(Learned learned) {
   const Clock::time_point begin = Clock::now();
-  localization_->changeTables(std::move(learned.opened), learned.tables);
+  localization_->changeTables(std::move(learned.opened), learned.tables, next_ ? next_->floor : "");
+  if (next_) maps_->use(next_->world);
   std::cout << "ortung-ros2: the map is learned, in " << std::fixed << std::setprecision(2)
             << learned.seconds << " s; readings have waited for " << std::setprecision(1)
             << 1000.0 * secondsSince(begin) << std::defaultfloat << " ms" << '\n'
@@ -140,6 +179,7 @@ void LiveNode::use(Learned learned) {
 }
 
 bool LiveNode::hasNewMap() const {
+  if (maps_) return maps_->isAnotherWanted();
   return setup_ && !(settings_.isFirstMapOnly && learned_ > 0) && setup_->hasNewMap();
 }
 
@@ -171,6 +211,7 @@ void LiveNode::applySettings() {
 void LiveNode::run(const std::function<bool()>& isStopped) {
   isStopped_ = isStopped;
   LocalizationConfig& config = options_.localization.localization;
+  openWorld();
   if (config.tables.empty()) {
     listenForMap();
     const auto tables = learn();
@@ -199,6 +240,7 @@ void LiveNode::localize() {
   while (!isStopped_()) {
     localization_->run([&] {
       bond_.tick();
+      tellMap();
       return !isStopped_() && !isLearned() &&
              (learning.valid() || (!hasNewMap() && !hasChangedSettings()));
     });
@@ -208,6 +250,8 @@ void LiveNode::localize() {
     if (!isLearned()) {
       if (learning.valid() || !hasNewMap()) continue;
       std::cout << "ortung-ros2: another map" << '\n' << std::flush;
+      if (!setup_) listenForMap();
+      if (maps_) next_ = maps_->takeWanted();
       learning = std::async(std::launch::async, [this] { return learnAnother(); });
       continue;
     }
@@ -216,6 +260,7 @@ void LiveNode::localize() {
     } catch (const std::exception& error) {
       std::cerr << "ortung-ros2: the map stays, since of the new one: " << error.what() << '\n';
     }
+    next_.reset();
   }
 }
 

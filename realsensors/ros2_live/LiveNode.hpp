@@ -16,6 +16,7 @@
 #include "LearnedMaps.hpp"
 #include "Lifecycle.hpp"
 #include "LiveLocalization.hpp"
+#include "LiveMaps.hpp"
 #include "LiveRequests.hpp"
 #include "LiveSetup.hpp"
 #include "ParameterServices.hpp"
@@ -23,8 +24,8 @@
 
 namespace ortung::ros2 {
 
-/// A node of ROS 2 in amcl's place: learns the map that is told, localizes, and is led by a
-/// lifecycle manager if there is one. Not thread-safe.
+/// A node of ROS 2 in amcl's place: learns the map that is told, or a world of its own whose maps
+/// it tells, localizes, and is led by a lifecycle manager if there is one. Not thread-safe.
 class LiveNode {
  public:
   struct Options {
@@ -32,6 +33,8 @@ class LiveNode {
     Participant::Options node;
     AmclParameters parameters;
     std::string map = "map";       ///< topic of the map
+    std::filesystem::path world;   ///< world file in place of the map of that topic; "": none
+    std::string building;          ///< text of a world file, likewise; "": none
     std::filesystem::path folder;  ///< folder for what is made of the map
   };
 
@@ -51,7 +54,10 @@ class LiveNode {
   };
 
   void onTransition(Lifecycle::Transition transition, Lifecycle::State state);
+  void openWorld();
   void listenForMap();
+  void tellMap();
+  std::uint64_t keyOf(const std::filesystem::path& world) const;
   std::optional<std::filesystem::path> learn();
   std::optional<Learned> learnAnother();
   void use(Learned learned);
@@ -74,6 +80,8 @@ class LiveNode {
   // The node goes first, since its threads use the others.
   LiveRequests requests_;
   LearnedMaps tables_;
+  std::optional<LiveMaps> maps_;          ///< null without maps of its own
+  std::optional<LiveMaps::Wanted> next_;  ///< world that is learned
   std::atomic<bool> isActive_;
   Bond bond_;
   std::optional<Lifecycle> lifecycle_;

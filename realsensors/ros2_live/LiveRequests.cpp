@@ -24,6 +24,11 @@ void LiveRequests::takePose(std::string_view cdr) {
   asked_.relocalizes = false;  // what was asked last counts
 }
 
+void LiveRequests::goTo(const std::string& floor) {
+  const std::lock_guard lock(mutex_);
+  asked_.floor = floor;
+}
+
 void LiveRequests::relocalize() {
   const std::lock_guard lock(mutex_);
   asked_.relocalizes = true;

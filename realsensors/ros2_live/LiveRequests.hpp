@@ -22,9 +22,10 @@ class LiveRequests {
   /// What was asked since the last time.
   struct Asked {
     std::optional<InitialPose> pose;
-    bool relocalizes = false;   ///< whether the robot is searched for anew
-    bool tellsNow = false;      ///< whether pose and particles are told at once
-    bool isConfigured = false;  ///< whether a manager has configured the node
+    std::optional<std::string> floor;  ///< the robot's floor; a pose is one on it
+    bool relocalizes = false;          ///< whether the robot is searched for anew
+    bool tellsNow = false;             ///< whether pose and particles are told at once
+    bool isConfigured = false;         ///< whether a manager has configured the node
   };
 
   explicit LiveRequests(std::string mapFrame) : mapFrame_(std::move(mapFrame)) {}
@@ -34,6 +35,8 @@ class LiveRequests {
   /// A geometry_msgs/msg/PoseWithCovarianceStamped in CDR, which request of set_initial_pose is,
   /// too. @throws std::invalid_argument if it is none, or not in the map's frame
   void takePose(std::string_view cdr);
+  /// Says that the robot is on a floor of its building.
+  void goTo(const std::string& floor);
   void relocalize();
   void tellNow();
   void configure();

@@ -37,8 +37,9 @@ LiveSetup::LiveSetup(Options options, Participant& node)
       node_(node),
       scans_(options_.scans.size()),
       cloudFrames_(options_.clouds.size()) {
-  node.subscribe(options_.map, OccupancyGrid::kType, Qos::kLatched,
-                 [this](std::string_view cdr) { takeMap(cdr); });
+  if (!options_.map.empty())
+    node.subscribe(options_.map, OccupancyGrid::kType, Qos::kLatched,
+                   [this](std::string_view cdr) { takeMap(cdr); });
   node.subscribe("/tf_static", TfMessage::kType, Qos::kLatched,
                  [this](std::string_view cdr) { takeFrames(cdr); });
   // Some robots tell mounts again and again, with all that moves.
@@ -137,7 +138,8 @@ std::vector<std::string> LiveSetup::framesWithoutMount() const {
 
 std::string LiveSetup::missing() const {
   const std::lock_guard lock(mutex_);
-  if (mapDigest_ == 0) return "the map at " + node_.wholeName(options_.map);
+  if (mapDigest_ == 0 && !options_.map.empty())
+    return "the map at " + node_.wholeName(options_.map);
   for (std::size_t i = 0; i < scans_.size(); ++i)
     if (!scans_[i]) return "scans at " + node_.wholeName(options_.scans[i]);
   for (std::size_t i = 0; i < cloudFrames_.size(); ++i)

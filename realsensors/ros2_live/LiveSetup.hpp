@@ -26,7 +26,7 @@ class LiveSetup {
     std::vector<std::string> clouds;  ///< topics of lidars
     CloudBands bands;                 ///< what is taken of their clouds
     std::string base = "base_footprint";
-    std::string map = "map";  ///< topic of the map
+    std::string map = "map";  ///< topic of the map; "": none is waited for
     double maxRange = 0.0;    ///< scans are cut there [m]; 0: where they say
   };
   LiveSetup(Options options, Participant& node);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "AmclParameters.hpp"
+#include "FloorOptions.hpp"
 #include "LiveLocalization.hpp"
 #include "LiveNode.hpp"
 #include "ParamsFile.hpp"
@@ -40,6 +41,8 @@ void onSignal(int) { isStopped = true; }
 /// What the command line says.
 struct Arguments {
   LiveNode::Options node;
+  std::vector<std::string> floors;           ///< floors of a building
+  std::vector<std::string> lifts;            ///< lifts of a building
   std::vector<std::filesystem::path> files;  ///< files of parameters
   std::string start;                         ///< "": as parameters say
   std::string band;                          ///< heights of clouds
@@ -69,6 +72,20 @@ LocalizationStart startOf(const std::string& text) {
   return start;
 }
 
+/// Options of who has maps that nobody tells.
+void addWorlds(CLI::App& app, Arguments& arguments) {
+  CLI::Option* const world =
+      app.add_option("--world", arguments.node.world,
+                     "World file (TOML), e.g. of a building, in place of the map that is told");
+  CLI::Option* const floor =
+      app.add_option("--floor", arguments.floors,
+                     "Floor of a building, NAME=MAP (e.g. a map_server YAML); may be given again")
+          ->excludes(world);
+  app.add_option("--lift", arguments.lifts,
+                 "Lift that stops on all floors, NAME=X,Y[,RADIUS] [m]; may be given again")
+      ->needs(floor);
+}
+
 void addOptions(CLI::App& app, Arguments& arguments) {
   LiveLocalization::Options& options = arguments.node.localization;
   app.add_option("--robot", options.localization.robot,
@@ -76,8 +93,10 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--tables", options.localization.tables,
                  "Table file of `ortung learn`; default: learned of the map")
       ->needs("--robot");
-  app.add_option("--map", arguments.node.map, "Topic of the map, if it is learned")
+  app.add_option("--map", arguments.node.map,
+                 "Topic of the map that is learned, or that is told if the map is its own")
       ->capture_default_str();
+  addWorlds(app, arguments);
   app.add_option("--folder", arguments.node.folder,
                  "Folder for what is made of the map; default: in the user's cache");
   app.add_option("--scan", options.scans,
@@ -197,6 +216,8 @@ void read(CLI::App& app, Arguments& arguments, const std::vector<std::string>& w
   if (ros.namesNode) names.node = node;
   if (arguments.node.folder.empty()) arguments.node.folder = cacheFolder();
   useClouds(app, arguments);
+  if (!arguments.floors.empty())
+    arguments.node.building = ortung::ros2::buildingToml(arguments.floors, arguments.lifts);
   if (!arguments.start.empty())
     arguments.node.localization.localization.start = startOf(arguments.start);
   LiveNode::Options& options = arguments.node;
@@ -226,7 +247,7 @@ int start(const std::vector<std::string>& words) {
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
     const bool hasRobotFile = !arguments.node.localization.localization.robot.empty();
-    for (const std::string& remark : arguments.node.parameters.remarks(hasRobotFile))
+    if (const std::string remark = arguments.node.parameters.remark(hasRobotFile); !remark.empty())
       std::cout << "ortung-ros2: " << remark << '\n';
     LiveNode node(std::move(arguments.node));
     node.run([] { return isStopped.load(); });

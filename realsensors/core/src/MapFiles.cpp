@@ -16,9 +16,11 @@ namespace ortung {
 
 // Maps of buildings by the robots of public logs are off by about 2 cm: with that, errors of poses
 // at scans are those that their covariances promise.
-std::string gridToml(const std::string& map) {
-  return "[[grid]]\nmap = " + tomlText(map) + "\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n";
+std::string gridKeys(const std::string& map) {
+  return "map = " + tomlText(map) + "\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n";
 }
+
+std::string gridToml(const std::string& map) { return "[[grid]]\n" + gridKeys(map); }
 
 namespace {
 

@@ -363,7 +363,7 @@ AmclSettings AmclParameters::settings() const {
   return s;
 }
 
-std::vector<std::string> AmclParameters::remarks(bool hasRobotFile) const {
+std::string AmclParameters::remark(bool hasRobotFile) const {
   std::map<std::string, std::vector<std::string>> why;
   for (const std::string& name : given_) {
     const Description& known = *find(name);
@@ -376,9 +376,9 @@ std::vector<std::string> AmclParameters::remarks(bool hasRobotFile) const {
     else if (known.leavesDefault && !isOwn(name))
       why["it has amcl's default, so Ortung's own stays"].push_back(name);
   }
-  std::vector<std::string> all;
+  std::string all;
   for (const auto& [reason, names] : why)
-    all.push_back("without effect: " + joined(names) + " (" + reason + ")");
+    all += (all.empty() ? "without effect: " : "; ") + joined(names) + " (" + reason + ")";
   return all;
 }
 

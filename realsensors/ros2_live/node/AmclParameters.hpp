@@ -68,9 +68,9 @@ class AmclParameters {
 
   const Value& get(std::string_view name) const;
   AmclSettings settings() const;
-  /// What of those that were set has no effect, a sentence a reason, for the start of a run.
+  /// Which of those that were set have no effect, and why, for the start of a run; "" if none.
   /// @param hasRobotFile whether robot and filter are told by a file of Ortung's
-  std::vector<std::string> remarks(bool hasRobotFile) const;
+  std::string remark(bool hasRobotFile) const;
 
  private:
   double number(std::string_view name) const;

@@ -176,6 +176,29 @@ void fields(auto& a, Is<SetParameterResult> auto& m) {
   a(m.reason);
 }
 
+/// A text (std_msgs/msg/String).
+struct Text {
+  static constexpr std::string_view kType = "std_msgs/msg/String";
+  std::string data;
+};
+/// The answer of a service that loads a map (nav2_msgs/srv/LoadMap).
+struct LoadedMap {
+  enum Result : std::uint8_t {
+    kSuccess = 0,
+    kNoSuchMap = 1,
+    kInvalidData = 2,
+    kInvalidMetadata = 3,
+    kUndefinedFailure = 255
+  };
+  OccupancyGrid map;
+  std::uint8_t result = kUndefinedFailure;
+};
+void fields(auto& a, Is<Text> auto& m) { a(m.data); }
+void fields(auto& a, Is<LoadedMap> auto& m) {
+  a(m.map);
+  a(m.result);
+}
+
 /// The time of day [ns since 1970].
 inline std::int64_t timeOfDay() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();

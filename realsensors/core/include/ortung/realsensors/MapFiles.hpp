@@ -12,6 +12,8 @@ namespace ortung {
 /// in a cell, so its middle is the best guess, and poses from which it was seen were off, too.
 /// @param map file, relative to the world's
 ORTUNG_API std::string gridToml(const std::string& map);
+/// Returns the keys of that table, which a [[floor]] of a building may have, too.
+ORTUNG_API std::string gridKeys(const std::string& map);
 
 /// Writes a world that is one occupancy grid: @p world (TOML), and a copy of the map with the same
 /// stem beside it. For a map_server YAML the YAML and the image that it names are copied
