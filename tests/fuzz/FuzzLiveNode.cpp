@@ -2,21 +2,26 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "AmclParameters.hpp"
 #include "Bond.hpp"
 #include "Files.hpp"
+#include "FloorOptions.hpp"
 #include "Lifecycle.hpp"
+#include "LiveMaps.hpp"
 #include "LiveRequests.hpp"
 #include "NodeMessages.hpp"
 #include "ParameterServices.hpp"
 #include "ParamsFile.hpp"
 #include "RosArguments.hpp"
 #include "ortung/mcl/MclConfig.hpp"
+#include "ortung/robot/TomlFile.hpp"
 
 namespace {
 
@@ -84,6 +89,30 @@ void readArguments(std::string_view text) {
   }
 }
 
+/// Any map may be asked for; what is none is answered.
+void askForMap(std::string_view bytes) {
+  static const ortung::test::TemporaryFolder folder;
+  LiveRequests requests("map");
+  LiveMaps maps({"", {{"ground", folder / "ground.yaml"}}}, {"map", "map", folder.path()},
+                requests);
+  std::cerr.setstate(std::ios::failbit);  // which says why
+  if (maps.load(bytes).size() < 4) std::abort();
+}
+
+void readFloors(std::string_view text) {
+  const std::string word(text);
+  for (const bool isLift : {false, true}) {
+    try {
+      const std::string toml =
+          ortung::ros2::buildingToml({isLift ? "ground=ground.yaml" : word},
+                                     isLift ? std::vector{word} : std::vector<std::string>());
+      ortung::parseToml(toml, "building");
+    } catch (const std::invalid_argument&) {  // it is no such word
+    } catch (const ortung::ConfigError&) {    // it is no text
+    }
+  }
+}
+
 template <class Take>
 void take(std::string_view bytes, Take taker) {
   try {
@@ -125,6 +154,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 4:
       readArguments(bytes);
+      break;
+    case 5:
+      take(bytes, askForMap);
+      break;
+    case 6:
+      readFloors(bytes);
       break;
     default:
       askForParameters(which, bytes);

@@ -42,15 +42,17 @@ TEST(AmclParameters, TakesAFileOfNav2AsItIs) {
   EXPECT_DOUBLE_EQ(settings.transformTolerance, 1.0);
   EXPECT_DOUBLE_EQ(settings.maxRange, 0.0);
   // Each key of the file either counts, or is named with a reason.
-  std::string all;
-  for (const std::string& remark : parameters.remarks(false)) all += remark + "\n";
-  for (const char* name : {"sigma_hit", "max_beams", "use_sim_time", "alpha1", "pf_err", "alpha5"})
+  const std::string all = parameters.remark(false);
+  EXPECT_EQ(all.find('\n'), all.npos) << "one line for all of them";
+  for (const char* name :
+       {"sigma_hit", "max_beams", "use_sim_time", "alpha1", "pf_err", "alpha5"}) {
     EXPECT_NE(all.find(name), all.npos) << name << " in\n" << all;
+    EXPECT_EQ(all.find(name), all.rfind(name)) << name << " twice in\n" << all;
+  }
   for (const char* name : {"base_frame_id", "transform_tolerance", "scan_topic", "tf_broadcast"})
     EXPECT_EQ(all.find(name), all.npos) << name << " in\n" << all;
-  all.clear();
-  for (const std::string& remark : parameters.remarks(true)) all += remark + "\n";
-  EXPECT_NE(all.find("the robot file tells it"), all.npos);
+  EXPECT_NE(parameters.remark(true).find("the robot file tells it"), std::string::npos);
+  EXPECT_EQ(AmclParameters().remark(false), "");
 }
 
 TEST(AmclParameters, MeanWhatTheyMeanInAmcl) {

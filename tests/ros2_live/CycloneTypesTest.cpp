@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "NodeMessages.hpp"
 #include "Participant.hpp"
 #include "ortung/ros2/Messages.hpp"
 
@@ -51,7 +52,7 @@ std::string odometry() {
   out.twistCovariance = covarianceFrom(40.0);
   return toCdr(out);
 }
-std::string occupancyGrid() {
+OccupancyGrid grid() {
   OccupancyGrid out;
   out.header = {kStamp, "map"};
   out.mapLoadTime = 7'000'000'008;
@@ -60,7 +61,7 @@ std::string occupancyGrid() {
   out.height = 1;
   out.origin = poseFrom(-1.0);
   out.data = {-1, 0, 100};
-  return toCdr(out);
+  return out;
 }
 std::string laserScan() {
   LaserScan out;
@@ -148,7 +149,10 @@ std::map<std::string, Known> messages() {
       {ParticleCloud::kType,
        toCdr(ParticleCloud{{kStamp, "map"}, {{poseFrom(1.0), 0.75}, {poseFrom(2.0), 0.25}}})},
       {TfMessage::kType, transforms()},
-      {OccupancyGrid::kType, occupancyGrid()},
+      {OccupancyGrid::kType, toCdr(grid())},
+      {Text::kType, cdrOf(Text{"ground"})},
+      {"nav2_msgs/srv/LoadMap_Request", cdrOf(std::string("/maps/first.yaml"))},
+      {"nav2_msgs/srv/LoadMap_Response", cdrOf(LoadedMap{grid(), LoadedMap::kInvalidMetadata})},
       {LaserScan::kType, laserScan()},
       {Range::kType, range()},
       {Image::kType, image()},
@@ -214,7 +218,9 @@ TEST(CycloneTypes, AreAllThatThereAre) {
   std::ifstream in(ORTUNG_SOURCE_DIR "/realsensors/ros2/include/ortung/ros2/Messages.hpp");
   const std::string header{std::istreambuf_iterator<char>(in), {}};
   const std::regex type("kType = \"([a-z0-9_]+/msg/\\w+)\"");
-  std::set<std::string> wanted;
+  // Beside those that everybody knows, those of a node that has maps.
+  std::set<std::string> wanted = {"std_msgs/msg/String", "nav2_msgs/srv/LoadMap_Request",
+                                  "nav2_msgs/srv/LoadMap_Response"};
   for (std::sregex_iterator one(header.begin(), header.end(), type), end; one != end; ++one)
     wanted.insert((*one)[1]);
   std::set<std::string> known;

@@ -81,6 +81,16 @@ TEST_F(LiveFeaturesTest, TakePosesInTheMap) {
   EXPECT_THROW(feature.read("\0\1\0\0"), std::invalid_argument);
 }
 
+TEST_F(LiveFeaturesTest, TakePosesOnAFloor) {
+  const auto onFirst = [](const Pose2& pose) { return Pose2{pose.x + 30.0, pose.y, pose.theta}; };
+  const LiveFeature feature = liveFeatureOf(container_, "m=marker/fix/pose", "map", onFirst);
+  PoseFixData data(kFix, {});
+  data.setData(1, feature.read(toCdr(fix())).words);
+  ASSERT_EQ(data.reading().size(), 1U);
+  EXPECT_NEAR(data.reading()[0].pose.x, 31.0, 1e-3);
+  EXPECT_NEAR(data.reading()[0].pose.y, -2.0, 1e-3);
+}
+
 TEST_F(LiveFeaturesTest, AreThoseOfTheRobotFile) {
   const auto why = [&](const std::string& text) -> std::string {
     try {

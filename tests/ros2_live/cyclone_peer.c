@@ -11,7 +11,8 @@
 //   ready                            goes on once everybody is there
 // It prints "said STAMP_NS AT" of odometry, "scanned STAMP_NS AT" of scans, "matched SECONDS" once
 // all it needs is there, "node
-// ...", "tf ...", "pose ...", "particles ...", "diagnostics ...".
+// ...", "tf ...", "pose ...", "particles ...", "diagnostics ...", "diagnosed KEY VALUE" of floors,
+// "floor NAME" and "map WIDTH HEIGHT RESOLUTION X Y OCCUPIED FREE".
 #define _GNU_SOURCE
 #include <dds/dds.h>
 #include <math.h>
@@ -22,7 +23,7 @@
 
 #include "messages.h"
 
-enum { kMostRanges = 65536, kTopics = 6 };
+enum { kMostRanges = 65536, kTopics = 8 };
 
 static dds_entity_t participant;
 
@@ -107,9 +108,27 @@ static void print_particles(const void* sample) {
 }
 static void print_diagnostics(const void* sample) {
   const diagnostic_msgs_msg_dds__DiagnosticArray_* m = sample;
-  for (uint32_t i = 0; i < m->status._length; ++i)
-    printf("diagnostics %lld %d %s %s\n", nanoseconds(&m->header.stamp), m->status._buffer[i].level,
-           m->status._buffer[i].name, m->status._buffer[i].message);
+  for (uint32_t i = 0; i < m->status._length; ++i) {
+    const diagnostic_msgs_msg_dds__DiagnosticStatus_* one = &m->status._buffer[i];
+    printf("diagnostics %lld %d %s %s\n", nanoseconds(&m->header.stamp), one->level, one->name,
+           one->message);
+    for (uint32_t j = 0; j < one->values._length; ++j)
+      if (strncmp(one->values._buffer[j].key, "floor", 5) == 0)
+        printf("diagnosed %s %s\n", one->values._buffer[j].key, one->values._buffer[j].value);
+  }
+}
+static void print_floor(const void* sample) {
+  printf("floor %s\n", ((const std_msgs_msg_dds__String_*)sample)->data);
+}
+static void print_map(const void* sample) {
+  const nav_msgs_msg_dds__OccupancyGrid_* m = sample;
+  uint32_t occupied = 0, open = 0;
+  for (uint32_t i = 0; i < m->data._length; ++i) {
+    occupied += m->data._buffer[i] == 100;
+    open += m->data._buffer[i] == 0;
+  }
+  printf("map %u %u %.6g %.9g %.9g %u %u\n", m->info.width, m->info.height, m->info.resolution,
+         m->info.origin.position.x, m->info.origin.position.y, occupied, open);
 }
 static void print_likelihood(const void* sample) {
   const nav_msgs_msg_dds__OccupancyGrid_* m = sample;
@@ -289,8 +308,9 @@ int main(int argc, char** argv) {
        print_diagnostics},
       {reader("ros_discovery_info", &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, 1, 1),
        print_nodes},
-      {reader("rt/likelihood_map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1),
-       print_likelihood}};
+      {reader("rt/likelihood_map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1), print_likelihood},
+      {reader("rt/floor", &std_msgs_msg_dds__String__desc, 1, 1), print_floor},
+      {reader("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1), print_map}};
   char* line = NULL;
   size_t size = 0;
   long long first = -1;

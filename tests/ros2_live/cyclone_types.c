@@ -113,6 +113,18 @@ static std_msgs_msg_dds__UInt32MultiArray_ words = {
                .data_offset = 5},
     .data = LIST(uint32_t, 7, 4294967295u)};
 
+static std_msgs_msg_dds__String_ text = {.data = "ground"};
+static nav2_msgs_srv_dds__LoadMap_Request_ load_map = {.map_url = "/maps/first.yaml"};
+static nav2_msgs_srv_dds__LoadMap_Response_ loaded_map = {
+    .grid = {.header = HEADER("map"),
+             .info = {.map_load_time = {.sec = 7, .nanosec = 8},
+                      .resolution = 0.05f,
+                      .width = 3,
+                      .height = 1,
+                      .origin = POSE(-1.0)},
+             .data = LIST(int8_t, -1, 0, 100)},
+    .result = 3};
+
 typedef struct {
   const char* name;
   const dds_topic_descriptor_t* type;
@@ -138,6 +150,9 @@ static Type types[] = {
     {"Imu", &sensor_msgs_msg_dds__Imu__desc, &imu, 0, 0, 0},
     {"PointCloud2", &sensor_msgs_msg_dds__PointCloud2__desc, &cloud, 0, 0, 0},
     {"DiagnosticArray", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, &diagnostics, 0, 0, 0},
+    {"String", &std_msgs_msg_dds__String__desc, &text, 0, 0, 0},
+    {"LoadMap_Request", &nav2_msgs_srv_dds__LoadMap_Request__desc, &load_map, 0, 0, 0},
+    {"LoadMap_Response", &nav2_msgs_srv_dds__LoadMap_Response__desc, &loaded_map, 0, 0, 0},
     {"UInt32MultiArray", &std_msgs_msg_dds__UInt32MultiArray__desc, &words, 0, 0, 0},
 };
 enum { kTypes = sizeof types / sizeof types[0] };

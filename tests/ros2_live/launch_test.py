@@ -41,9 +41,13 @@ arguments = {action.words[0]: action.keys.get("default_value") for action in act
 [process] = [action for action in actions if action.kind == "process"]
 [manager] = [action for action in actions if action.kind == "node" and action.keys["executable"] == "lifecycle_manager"]
 with tempfile.TemporaryDirectory() as folder:
-    values = {**arguments, **VALUES, "belief": folder + "/belief"}
+    world = pathlib.Path(folder) / "building.toml"
+    world.write_text('[[floor]]\nname = "ground"\nmap = "ground.yaml"\n')
+    values = {**arguments, **VALUES, "belief": folder + "/belief", "world": str(world)}
     command = [values[word[1]] if isinstance(word, tuple) else word for word in process.keys["cmd"]]
     assert command[0] == "ortung-ros2", command
+    has_map_server = any(action.kind == "node" and action.keys["executable"] == "map_server" for action in actions)
+    assert has_map_server == ("map_server" in manager.keys["parameters"][0]["node_names"]) == ("--world" not in command), (command, manager.keys)
     names = [word.split(":=")[1] for word in command if word.startswith("__node:=")]
     assert names == ["amcl"] and "amcl" in manager.keys["parameters"][0]["node_names"], (names, manager.keys)
     environment = {**os.environ, "ROS_DOMAIN_ID": str(216 + os.getpid() % 10), "ROS_LOCALHOST_ONLY": "1", "HOME": folder, "ROS_DISTRO": "jazzy"}

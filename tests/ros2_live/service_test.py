@@ -24,7 +24,7 @@ class Robot:
     """A running ortung-ros2, and a client of its services."""
 
     def __init__(self, folder, *arguments):
-        self.domain = 101 + os.getpid() % 100  # each test has domains of its own
+        self.domain = 101 + os.getpid() % 70  # each test has domains of its own
         environment = {**os.environ, "ROS_DOMAIN_ID": str(self.domain), "ROS_LOCALHOST_ONLY": "1", "HOME": str(folder)}
         self.running = subprocess.Popen([node, *arguments], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.client = subprocess.Popen([client, str(self.domain)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
