@@ -33,10 +33,15 @@ std::optional<std::filesystem::path> LearnedMaps::find(std::uint64_t key) {
 }
 
 std::filesystem::path LearnedMaps::fileForNext() {
-  if (known_.size() < kMost) return folder_ / ("map" + std::to_string(++files_) + ".ortung");
-  const std::filesystem::path oldest = known_.back().second;
-  known_.pop_back();
-  return oldest;
+  if (known_.size() == kMost) known_.pop_back();
+  const auto isUsed = [&](const std::filesystem::path& file) {
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const auto& one) { return one.second == file; });
+  };
+  for (std::size_t i = 1;; ++i) {
+    auto file = folder_ / ("map" + std::to_string(i) + ".ortung");
+    if (!isUsed(file)) return file;
+  }
 }
 
 void LearnedMaps::keep(std::uint64_t key, const std::filesystem::path& tables) {

@@ -32,7 +32,6 @@ class LearnedMaps {
  private:
   const std::filesystem::path folder_;
   std::list<std::pair<std::uint64_t, std::filesystem::path>> known_;  ///< newest first
-  std::size_t files_ = 0;
 };
 
 }  // namespace ortung::ros2
