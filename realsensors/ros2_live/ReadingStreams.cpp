@@ -5,8 +5,11 @@
 namespace ortung::ros2 {
 namespace {
 
-/// The least time without a reading after which a device is not waited for.
-constexpr std::chrono::seconds kSilent{1};
+/// How long a device is waited for from which nothing has come yet.
+constexpr std::chrono::seconds kFirst{1};
+/// The least time without a reading after which a device is not waited for: what sees something
+/// only at times holds others up that long.
+constexpr std::chrono::milliseconds kSilent{500};
 constexpr Timestamp kLongest = 60'000'000;  ///< period that is believed [us]
 
 }  // namespace
@@ -48,7 +51,7 @@ Timestamp ReadingStreams::periodOf(const Stream& stream) {
 bool ReadingStreams::isAwaited(Timestamp stamp, Clock::time_point now) const {
   if (!begin_) return false;
   return std::any_of(streams_.begin(), streams_.end(), [&](const Stream& stream) {
-    if (!stream.newest) return now - *begin_ < kSilent;
+    if (!stream.newest) return now - *begin_ < kFirst;
     if (stamp <= *stream.newest) return false;
     const Timestamp period = periodOf(stream);
     const std::chrono::microseconds due(3 * period);
