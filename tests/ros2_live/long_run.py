@@ -4,6 +4,7 @@ hour: can a subscriber look up map -> base at the stamp of each message, as tf2 
 without a relocalization that is told? BIN is the folder of the programs, those of the tests among them (build/dev/bin). No test runs this,
 since it is long; it ends with 1 if a look-up fails, or at a step that was not told."""
 import argparse
+import collections
 import math
 import os
 import pathlib
@@ -49,8 +50,8 @@ class Steps:
             STEP, len(self.steps), len(untold), *self.most))
         for clock, metres, turn in untold:
             print("  %.3f m and %.2f degrees at %.3f s" % (metres, turn, clock / 1e9))
-        for clock, cause in self.told:
-            print("  told at %.3f s: %s" % (clock / 1e9, cause))
+        for cause, count in collections.Counter(cause for _, cause in self.told).most_common():
+            print("told %d times: %s" % (count, cause))
         return not untold
 
 
