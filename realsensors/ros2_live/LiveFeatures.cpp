@@ -1,11 +1,11 @@
 #include "LiveFeatures.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "FrameTree.hpp"
 #include "LiveImages.hpp"
+#include "ReadingMessages.hpp"
 #include "ortung/formats/ConeData.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseFixData.hpp"
@@ -24,20 +24,9 @@ M decoded(std::string_view cdr) {
   return *message;
 }
 
-/// By REP 117: beyond its range nothing was seen, which infinity says, too; negative infinity is an
-/// object that is too near to tell its distance.
-std::uint32_t wordOf(const Range& told, double maxRange) {
-  double range = static_cast<double>(told.range);
-  const bool isBeyond = range >= static_cast<double>(told.maxRange) && told.maxRange > 0.0F;
-  if (isBeyond) range = std::numeric_limits<double>::infinity();
-  if (range < static_cast<double>(told.minRange) || range < 0.0)
-    range = std::numeric_limits<double>::quiet_NaN();
-  return ConeData::encode(range, maxRange);
-}
-
 Message readRange(std::string_view cdr, const SensorId& feature, double maxRange) {
   const auto told = decoded<Range>(cdr);
-  return {stampOf(told.header), feature, {wordOf(told, maxRange)}};
+  return {stampOf(told.header), feature, {ConeData::encode(metresOf(told), maxRange)}};
 }
 
 Message readFix(std::string_view cdr, const SensorId& feature, const std::string& map,

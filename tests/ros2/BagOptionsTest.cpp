@@ -264,11 +264,14 @@ TEST_F(BagOptions, RangesAreSonarsWithTheirConeAndMount) {
       .add("/tf_static", frameAt("base_footprint", "sonar", {{0.2, 0.1, 0.5}, {0, 0, 1, 0}}));
   maker.add("/us/left", rangeOf(kSecond, 1.25F)).add("/us/left", rangeOf(2 * kSecond, -1.0F));
   maker.add("/us/left", rangeOf(3 * kSecond, 4.0F));
+  ros2::Range near = rangeOf(4 * kSecond, 0.15F);
+  near.minRange = 0.2F;
+  maker.add("/us/left", near);
   const auto source = makeSource(write(maker));
   EXPECT_EQ(
       asText(only(readAll(*source), "sonar/ultrasonic/us_left_0")),
       (Texts{"1000000 sonar/ultrasonic/us_left_0 1250", "2000000 sonar/ultrasonic/us_left_0 0",
-             "3000000 sonar/ultrasonic/us_left_0 4001"}));
+             "3000000 sonar/ultrasonic/us_left_0 4001", "4000000 sonar/ultrasonic/us_left_0 0"}));
   const std::string toml = source->robotToml();
   EXPECT_NE(toml.find("feature = \"us_left_\"\npose = { x_m = 0.2, y_m = 0.1, theta_deg = 180.0 }\n"
                       "ring_radius_m = 0.0\nopening_deg = 28.64789\nmax_range_m = 4.0\n"),

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "../src/Compression.hpp"
+#include "../src/ReadingMessages.hpp"
 #include "BagFolder.hpp"
 #include "BagTopics.hpp"
 #include "MapWorld.hpp"
@@ -235,7 +236,7 @@ void Bag::takeRange(const McapMessage& message) {
                           " m, expected up to 3 rad and 100 m");
   }
   keep(sizeof(Reading));
-  list.list.push_back({stampOf(range.header, message), range.range});
+  list.list.push_back({stampOf(range.header, message), metresOf(range)});
 }
 
 void Bag::takeImage(const McapMessage& message) {

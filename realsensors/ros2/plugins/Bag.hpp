@@ -61,7 +61,7 @@ class Bag {
   };
   struct Reading {
     Timestamp stamp;
-    float range;
+    double range;  ///< by REP 117 [m]
   };
   struct Ranges {
     std::string topic, feature, frame;

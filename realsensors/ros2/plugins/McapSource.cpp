@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -263,8 +262,7 @@ void McapSource::addRanges(const Bag& bag, const Bag::Ranges& ranges) {
   const Pose2 mount = mountOf(bag, ranges.frame, ranges.topic, false).first;
   const double maxRange = plain(ranges.maxRange);
   for (const Bag::Reading& one : ranges.list) {
-    const float range = one.range > 0.0F ? one.range : std::numeric_limits<float>::quiet_NaN();
-    const std::uint32_t word = ConeData::encode(static_cast<double>(range), maxRange);
+    const std::uint32_t word = ConeData::encode(one.range, maxRange);
     add(feature, one.stamp, {&word, 1});
   }
   if (id.feature.ends_with("0")) id.feature.pop_back();  // the plugin numbers its sonars

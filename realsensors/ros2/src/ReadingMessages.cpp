@@ -116,6 +116,14 @@ Range rangeMessage(const Message& reading, const Format& cone, Header header) {
   return out;
 }
 
+double metresOf(const Range& told) {
+  if (told.range >= told.maxRange && told.maxRange > 0.0F)
+    return std::numeric_limits<double>::infinity();
+  if (!(told.range > 0.0F) || told.range < told.minRange)
+    return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(told.range);
+}
+
 std::optional<Range> rowRangeMessage(const Message& reading, const Format& row, Header header) {
   for (const WordValue& value : valuesOfRows(row, reading.words)) {
     if (value.kind != ValueKind::kRange) continue;

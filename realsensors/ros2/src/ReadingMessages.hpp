@@ -34,6 +34,9 @@ bool areInRobot(const Format& format);
 /// Places of rows with x, y, z and all that the rows tell, by the names in `row`.
 PointCloud cloudMessage(const Message& reading, const Format& row, Header header);
 Image imageMessage(const Message& reading, Header header);
+/// What a Range says, by REP 117 [m]: infinity beyond its greatest range, where nothing was seen;
+/// NaN below its least one, where something is too near to tell its distance.
+ORTUNG_API double metresOf(const Range& told);
 /// Converts the first fix; nothing if there is none.
 std::optional<PoseWithCovarianceStamped> poseMessage(const Message& reading, Header header);
 PoseArray samplesMessage(const Message& reading, Header header);
