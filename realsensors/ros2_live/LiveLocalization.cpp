@@ -323,8 +323,10 @@ void LiveLocalization::sayStatus(TrackStatus status) {
             << std::flush;
 }
 
-/// Tells on the terminal that the robot was put elsewhere in the map, and why.
+/// Tells on the terminal that the robot was put elsewhere in the map, and why. What readings
+/// correct is ordinary where odometry is poor, and told in diagnostics alone.
 void LiveLocalization::sayRelocalization(const Pose2& inField) const {
+  if (relocalizations_.cause() == Relocalization::kReadings) return;
   std::cout << "ortung-ros2: relocalization " << relocalizations_.count();
   if (floors_.isHere(inField)) std::cout << " to " << placeText(floors_.fromField(inField));
   std::cout << ": " << nameOf(relocalizations_.cause()) << '\n' << std::flush;
