@@ -40,8 +40,12 @@ OutputKind kindOf(Format format) {
 /// each pose; or stdout, which is flushed after each pose.
 class PoseOutput {
  public:
-  PoseOutput(const Outputs& outputs, const LocalizeArguments& arguments, bool isLive)
-      : isLive_(isLive), format_(formatOf(arguments)), isEven_(arguments.rate.has_value()) {
+  PoseOutput(const Outputs& outputs, const LocalizeArguments& arguments, bool isLive,
+             const Building& building)
+      : isLive_(isLive),
+        format_(formatOf(arguments)),
+        isEven_(arguments.rate.has_value()),
+        building_(building) {
     if (!arguments.out.empty()) file_.emplace(outputs.ready(arguments.out));
     if (format_ == Format::kTum) text_ = kTumHeader;
     if (format_ != Format::kText) return;
@@ -53,7 +57,7 @@ class PoseOutput {
   /// @param age time since samples were last weighed [s]
   void add(const PoseEstimate& estimate, std::optional<double> age) {
     if (format_ == Format::kJson) {
-      appendEstimateJson(estimate, age, text_);
+      appendEstimateJson(estimate, age, building_, text_);
     } else if (format_ == Format::kTum) {
       appendTum(estimate.stamp, estimate.pose, text_);
     } else {
@@ -76,6 +80,7 @@ class PoseOutput {
   bool isLive_;
   Format format_;
   bool isEven_;
+  const Building& building_;  ///< borrowed
   std::optional<NewFile> file_;
   std::string text_;
 };
@@ -122,7 +127,8 @@ class LocalizeRun {
       : arguments_(arguments),
         localization_(localization),
         belief_(arguments.belief, localization),
-        output_(outputs, arguments, localization.source().isLive()),
+        output_(outputs, arguments, localization.source().isLive(),
+                localization.robot().tables.region.building),
         rescue_([this] { output_.commit(); }) {
     if (arguments.rate) times_.emplace(*arguments.rate);
     if (arguments.truth.empty()) return;

@@ -28,7 +28,7 @@ void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std
 }
 
 void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
-                        std::string& text) {
+                        const Building& building, std::string& text) {
   const auto& c = estimate.covariance;
   nlohmann::ordered_json line;
   line["stamp_us"] = estimate.stamp;
@@ -48,6 +48,12 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["relocalizations"] = estimate.relocalizations;
   line["relocalization"] = nameOf(estimate.relocalization);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
+  if (!building.isEmpty()) {
+    const Floor& floor = building.floors[building.floorAt(estimate.pose.x)];
+    const Pose2 there = floor.fromField(estimate.pose);
+    line["floor"] = floor.name;
+    line["floor_pose"] = {there.x, there.y, there.theta};
+  }
   text += line.dump() + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "ortung/mcl/PoseEstimate.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung::app {
 
@@ -23,8 +24,10 @@ inline constexpr std::string_view kAgeColumns = "age_s quality";
 /// @param age time since samples were last weighed [s]; nothing: not yet, written as nan
 void appendEstimate(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
 
-/// Appends the same as a JSON object and a line feed; the covariance row by row; no age is null.
-void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age, std::string& text);
+/// Appends the same as a JSON object and a line feed; the covariance row by row; no age is null. In
+/// a building it has the floor's name, and the pose in the floor's own frame.
+void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
+                        const Building& building, std::string& text);
 
 /// The first line of such a file, a comment.
 inline constexpr std::string_view kTumHeader = "# timestamp tx ty tz qx qy qz qw\n";

@@ -86,11 +86,20 @@ TEST(GoldenTexts, EstimatesOfPoses) {
   estimate.smooth = {1.25, -2.5, -3.125};
   estimate.relocalizations = 7;
   estimate.relocalization = Relocalization::kOtherPlace;
-  appendEstimateJson(estimate, 2.0625, text);
+  appendEstimateJson(estimate, 2.0625, {}, text);
   estimate.protection = kUnbounded;
   estimate.covariance[0] = std::numeric_limits<double>::infinity();
-  appendEstimateJson(estimate, std::nullopt, text);
+  appendEstimateJson(estimate, std::nullopt, {}, text);
   expectGolden("estimates.json", text);
+
+  // On a floor of a building.
+  text = "";
+  estimate.pose = {31.5, -2.0, 0.25};
+  Building building;
+  building.floors = {{"ground", 0.0, -5.0, 20.0}, {"first", 30.0, 20.0, 50.0}};
+  appendEstimateJson(estimate, std::nullopt, building, text);
+  EXPECT_NE(text.find(R"("floor":"first","floor_pose":[1.5,-2.0,0.25]})"), std::string::npos)
+      << text;
 }
 
 Parameters learnedSettings() {
