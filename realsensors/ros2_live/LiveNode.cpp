@@ -9,6 +9,8 @@
 
 #include "LiveLearning.hpp"
 #include "ortung/base/NewFile.hpp"
+#include "ortung/robot/TableInfo.hpp"
+#include "ortung/tables/TableFile.hpp"
 
 namespace ortung::ros2 {
 namespace {
@@ -217,6 +219,8 @@ void LiveNode::run(const std::function<bool()>& isStopped) {
     const auto tables = learn();
     if (!tables) return;
     config.tables = *tables;
+  } else if (maps_) {
+    maps_->world().checkFloors(readTableInfo(TableFile(config.tables)).region.building);
   }
   auto localization = std::make_unique<LiveLocalization>(options_.localization, requests_);
   {

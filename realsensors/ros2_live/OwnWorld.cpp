@@ -1,6 +1,7 @@
 #include "OwnWorld.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <system_error>
 
 #include "GridMap.hpp"
@@ -41,6 +42,22 @@ const OwnWorld::Map* OwnWorld::find(const std::string& nameOrPath) const {
   };
   const auto found = std::find_if(maps.begin(), maps.end(), isMeant);
   return found == maps.end() ? nullptr : &*found;
+}
+
+void OwnWorld::checkFloors(const Building& learned) const {
+  std::vector<std::string> here;
+  for (const Map& map : maps)
+    if (!map.floor.empty()) here.push_back(map.floor);
+  std::vector<std::string> there;
+  for (const Floor& floor : learned.floors) there.push_back(floor.name);
+  if (here == there) return;
+  const auto text = [](const std::vector<std::string>& floors) {
+    std::string all;
+    for (const std::string& floor : floors) all += (all.empty() ? "" : ", ") + floor;
+    return all.empty() ? std::string("none") : all;
+  };
+  throw std::runtime_error("the tables have the floors " + text(there) + ", expected those of " +
+                           file.string() + ": " + text(here));
 }
 
 OwnWorld readOwnWorld(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ortung/ros2/Messages.hpp"
+#include "ortung/tables/Building.hpp"
 
 namespace ortung::ros2 {
 
@@ -22,6 +23,9 @@ struct OwnWorld {
   const Map* mapOf(const std::string& floor) const;
   /// Returns what a name of a floor or the path of a map file means; null: nothing here.
   const Map* find(const std::string& nameOrPath) const;
+  /// Checks that tables are of a world with these floors.
+  /// @throws std::runtime_error naming the floors of both
+  void checkFloors(const Building& learned) const;
 };
 
 /// Finds the maps of a world file: those of its floors or, without floors, its only [[grid]].

@@ -68,9 +68,12 @@ TEST(Building, WhatAFileMaySayWrongIsRefusedByName) {
   EXPECT_TRUE(says(whyRefused([](Building& b) { b.lifts[0].radius = 0.0; }), "radius"));
   EXPECT_TRUE(says(whyRefused([](Building& b) { b.lifts[0].stops.resize(1); }), "1 floors"));
   EXPECT_TRUE(says(whyRefused([](Building& b) { b.lifts[0].stops[1].floor = 3; }), "floor 3"));
-  EXPECT_TRUE(says(whyRefused([](Building& b) { b.lifts[0].stops[1].floor = 0; }), "floor 0"));
-  EXPECT_TRUE(says(whyRefused([](Building& b) { b.lifts[0].stops[1].pose.x = 20.0; }), "floor 2"));
-  EXPECT_TRUE(says(whyRefused([&](Building& b) { b.lifts[0].stops[0].pose.y = kNan; }), "floor 0"));
+  EXPECT_TRUE(
+      says(whyRefused([](Building& b) { b.lifts[0].stops[1].floor = 0; }), "twice on floor 'g'"));
+  EXPECT_TRUE(
+      says(whyRefused([](Building& b) { b.lifts[0].stops[1].pose.x = 20.0; }), "floor 'two'"));
+  EXPECT_TRUE(
+      says(whyRefused([&](Building& b) { b.lifts[0].stops[0].pose.y = kNan; }), "floor 'g'"));
 }
 
 TEST(Building, ARegionIsCheckedWithItsFloors) {

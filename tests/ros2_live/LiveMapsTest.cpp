@@ -218,5 +218,23 @@ TEST(LikelihoodMap, IsCutToAFloor) {
   EXPECT_EQ(first.open, (std::vector<std::uint8_t>{0, 1, 2, 3, 8, 9, 10, 11}));
 }
 
+TEST(OwnWorldTest, TablesOfOtherFloorsAreRefused) {
+  const OwnWorld world{"b.toml", {{"a", "a.yaml"}, {"b", ""}}};
+  Building learned;
+  learned.floors = {{"a", 0.0, -5.0, 5.0}, {"b", 10.0, 5.0, 15.0}};
+  EXPECT_NO_THROW(world.checkFloors(learned));
+  learned.floors[1].name = "c";
+  try {
+    world.checkFloors(learned);
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "the tables have the floors a, c, expected those of b.toml: a, b");
+  }
+  EXPECT_THROW(world.checkFloors({}), std::runtime_error);
+  const OwnWorld plain{"w.toml", {{"", "a.yaml"}}};
+  EXPECT_NO_THROW(plain.checkFloors({}));
+  EXPECT_THROW(plain.checkFloors(learned), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace ortung::ros2

@@ -207,9 +207,11 @@ TEST(BuildingFiles, WhatIsWrongIsSaidByName) {
   refused(both + "[[floor]]\nname = \"a b\"\n", "name");
   refused(both + "[world]\nx_m = [0, 1]\n", "does not fit a building");
   refused(both + lift + "floor = \"g\"\n", "stops at 1 floors");
-  refused(both + lift + lift, "stops at floor 0");
+  refused(both + lift + lift, "stops twice on floor 'g'");
   refused(both + lift + "floor = \"g\"\n" + lift + "floor = \"one\"\nradius_m = 2\n", "radius_m");
-  refused(both + "[[lift]]\nname = \"A\"\nposition_m = [500, 0]\n", "places on them");
+  refused(both + "[[lift]]\nname = \"A\"\nposition_m = [500, 0]\n",
+          "lift 'A' is at (500.00, 0.00) m of floor 'g'");
+  refused(both + "[[lift]]\nname = \"A\"\nposition_m = [0, 1.5]\n", "of floor 'g'");
   refused(both + "[[lift]]\nname = \"A\"\nposition_m = [0, 0]\nspeed = 1\n", "speed");
   const std::string one = "[[rectangle]]\ncenter_m = [0, 0]\nsize_m = [1, 1]\n";
   refused(one + lift, "lift");
@@ -219,8 +221,8 @@ TEST(BuildingFiles, WhatIsWrongIsSaidByName) {
 TEST(BuildingFiles, StopsMayBeElsewhereOnEachFloor) {
   const auto world = worldOf(
       "[[floor]]\nname = \"g\"\n[[floor]]\nname = \"one\"\n"
-      "[[rectangle]]\nfloor = \"g\"\ncenter_m = [0, 0]\nsize_m = [1, 1]\n"
-      "[[rectangle]]\nfloor = \"one\"\ncenter_m = [0, 0]\nsize_m = [1, 1]\n"
+      "[[rectangle]]\nfloor = \"g\"\ncenter_m = [0, 0]\nsize_m = [9, 9]\n"
+      "[[rectangle]]\nfloor = \"one\"\ncenter_m = [0, 0]\nsize_m = [9, 9]\n"
       "[[lift]]\nname = \"A\"\nfloor = \"one\"\nposition_m = [2, 3]\nheading_deg = 180\n"
       "[[lift]]\nname = \"A\"\nfloor = \"g\"\nposition_m = [-1, 0]\n");
   const Building building = world->region(0.5, {0.1}).building;
@@ -240,9 +242,11 @@ TEST(BuildingFiles, TheFingerprintKnowsFloors) {
             worldOf("[[rectangle]]\ncenter_m = [0, 0]\nsize_m = [1, 1]\n"
                     "[[rectangle]]\ncenter_m = [11, 0]\nsize_m = [1, 1]\n")
                 ->fingerprint());
-  // Lifts are no surfaces: what sensors learn is the same.
-  EXPECT_EQ(worldOf(floors + things)->fingerprint(),
-            worldOf(floors + things + lift)->fingerprint());
+  // Tables hold names and lifts, so those of another lift are not of this world.
+  const auto base = worldOf(floors + things + lift)->fingerprint();
+  EXPECT_NE(worldOf(floors + things)->fingerprint(), base);
+  EXPECT_NE(worldOf(floors + things + lift + "radius_m = 2\n")->fingerprint(), base);
+  EXPECT_NE(worldOf(floors + things + lift + "heading_deg = 2\n")->fingerprint(), base);
 }
 
 }  // namespace

@@ -53,10 +53,15 @@ void Building::check() const {
            " floors, expected two or more");
     std::set<std::size_t> stops;
     for (const LiftStop& stop : lift.stops) {
-      if (stop.floor >= floors.size() || !stops.insert(stop.floor).second || !isFinite(stop.pose) ||
-          floorAt(stop.pose.x) != stop.floor)
+      if (stop.floor >= floors.size())
         fail("lift '" + lift.name + "' stops at floor " + std::to_string(stop.floor) +
-             ", expected floors that there are, each once, and places on them");
+             ", expected one of " + std::to_string(floors.size()));
+      const std::string& floor = floors[stop.floor].name;
+      if (!stops.insert(stop.floor).second)
+        fail("lift '" + lift.name + "' stops twice on floor '" + floor + "', expected once");
+      if (!isFinite(stop.pose) || floorAt(stop.pose.x) != stop.floor)
+        fail("lift '" + lift.name + "' is at x = " + std::to_string(stop.pose.x) +
+             " m of the field, expected it on floor '" + floor + "'");
     }
   }
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
-#include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "PrimitiveFile.hpp"
 #include "ReadTables.hpp"
@@ -42,6 +44,17 @@ void shift(WorldModel& floor, double by) {
   }
   for (GridBody& body : floor.grids) body.map.originX += by;
   for (Landmark& mark : floor.landmarks) mark.x += by;
+}
+
+/// Says that a lift is not within what stands on a floor.
+std::string outsideText(const std::string& lift, const std::vector<double>& position,
+                        const Floor& floor, const Box2& box) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "lift '" << lift << "' is at (" << position[0]
+       << ", " << position[1] << ") m of floor '" << floor.name << "', expected x from "
+       << box.xLow - floor.shift << " to " << box.xHigh - floor.shift << " and y from " << box.yLow
+       << " to " << box.yHigh;
+  return text.str();
 }
 
 template <class T>
@@ -111,12 +124,12 @@ void BuildingFile::moveInto(WorldModel& world) {
     append(part.grids, world.grids);
     append(part.landmarks, world.landmarks);
   }
-  readLifts(building);
+  readLifts(building, world.floorBounds);
 }
 
 /// Reads the stops of lifts: one on the floor that a table names, or one on each. Tables of the
 /// same name are one lift.
-void BuildingFile::readLifts(Building& building) const {
+void BuildingFile::readLifts(Building& building, const std::vector<Box2>& bounds) const {
   if (tables_.empty()) return;  // [[lift]] is refused as a key that nobody has read
   std::optional<Parameters> last;
   for (const Parameters& table : readTables(toml_, "lift", kMostStops)) {
@@ -132,9 +145,13 @@ void BuildingFile::readLifts(Building& building) const {
     const bool isEverywhere = !table.has("floor");
     const std::size_t first = isEverywhere ? 0 : indexOf(table);
     const std::size_t end = isEverywhere ? tables_.size() : first + 1;
-    for (std::size_t i = first; i < end; ++i)
-      lift->stops.push_back(
-          {i, building.floors[i].toField({position[0], position[1], wrapAngle(heading)})});
+    for (std::size_t i = first; i < end; ++i) {
+      const Pose2 pose = building.floors[i].toField({position[0], position[1], wrapAngle(heading)});
+      const Box2& box = bounds[i];
+      if (pose.x < box.xLow || pose.x > box.xHigh || pose.y < box.yLow || pose.y > box.yHigh)
+        table.fail("position_m", outsideText(name, position, building.floors[i], box));
+      lift->stops.push_back({i, pose});
+    }
     last = table;
   }
   try {

@@ -28,7 +28,7 @@ class BuildingFile {
 
  private:
   std::size_t indexOf(const Parameters& table) const;
-  void readLifts(Building& building) const;
+  void readLifts(Building& building, const std::vector<Box2>& bounds) const;
 
   const Parameters& toml_;
   std::vector<Parameters> tables_;

@@ -93,7 +93,15 @@ std::string fingerprintOf(const WorldModel& world) {
   const Box2& box = world.bounds;
   lines.push_back(Line("bounds").add(box.xLow).add(box.xHigh).add(box.yLow).add(box.yHigh).text());
   for (const Floor& floor : world.building.floors)
-    lines.push_back(Line("floor").add(floor.shift).add(floor.xLow).add(floor.xHigh).text());
+    lines.push_back(
+        Line("floor").add(floor.name).add(floor.shift).add(floor.xLow).add(floor.xHigh).text());
+  for (const Lift& lift : world.building.lifts) {
+    Line line("lift");
+    line.add(lift.radius);
+    for (const LiftStop& stop : lift.stops)
+      line.add(stop.pose.x).add(stop.pose.y).add(stop.pose.theta);
+    lines.push_back(line.text());
+  }
   std::sort(lines.begin(), lines.end());
   Fnv all;
   for (const std::string& line : lines) all.add(line + "\n");

@@ -36,6 +36,14 @@ FieldGrid gridOver(const Box2& bounds, double cell) {
           std::max(1, static_cast<int>(rows))};
 }
 
+/// Returns whether a disc neither touches a box nor has its centre in it.
+bool isFarFrom(const Box2& box, double x, double y, double radius) {
+  constexpr double kMore = 1e-6;  // than rounding errors of the box [m]
+  const double reach = radius + kMore;
+  return x < box.xLow - reach || x > box.xHigh + reach || y < box.yLow - reach ||
+         y > box.yHigh + reach;
+}
+
 /// Returns whether a body is in the way of something of this height on the floor.
 template <class Body>
 bool isMetBy(const Body& body, double height) {
@@ -49,7 +57,8 @@ FreeSpace::FreeSpace(const WorldModel& world)
       bounds_(world.floorBounds.empty() ? std::vector{world.bounds} : world.floorBounds) {
   for (const Primitive& primitive : world.primitives)
     if (primitive.isSolid()) bodies_.push_back(&primitive);
-  for (const GridBody& body : world.grids) grids_.push_back({&body, distanceToOccupied(body.map)});
+  for (const GridBody& body : world.grids)
+    grids_.push_back({&body, body.map.bounds(), distanceToOccupied(body.map)});
 }
 
 bool FreeSpace::isInField(double x, double y, double radius) const {
@@ -101,9 +110,10 @@ bool FreeSpace::isFreeOfGrids(double x, double y, const RobotSize& size) const {
   bool known = false;
   for (const Grid& grid : grids_) {
     if (!isMetBy(*grid.body, size.height)) continue;
+    isAny = true;
+    if (isFarFrom(grid.bounds, x, y, size.radius)) continue;  // as most floors of a building are
     const Point2 at = grid.body->map.toGrid({x, y});
     if (touches(grid, at.x, at.y, size.radius)) return false;
-    isAny = true;
     known = known || isKnown(grid, at.x, at.y);
   }
   return known || !isAny;

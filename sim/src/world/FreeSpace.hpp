@@ -24,6 +24,7 @@ class FreeSpace {
  private:
   struct Grid {
     const GridBody* body;
+    Box2 bounds;  ///< box in the field around the map
     /// Distance to the nearest occupied cell, centre to centre [cells].
     std::vector<float> toOccupied;
   };
