@@ -37,10 +37,9 @@ WorldObject objectOf(const Primitive& primitive);
 std::vector<WorldPiece> worldPiecesOf(std::span<const Primitive> pieces);
 
 /// Returns a digest of 16 hexadecimal digits over shapes, kinds, colours, heights, grids, landmarks
-/// and bounds of everything fixed, independent of order and names; of floors with their names and of
-/// lifts, which tables hold, too. Moving bodies are left out,
-/// since tables do not contain them. Lengths are rounded to micrometres, so that rounding errors do
-/// not matter.
+/// and bounds of everything fixed, independent of order and names; of floors with their names and
+/// of lifts, which tables hold, too. Moving bodies are left out, since tables do not contain them.
+/// Lengths are rounded to micrometres, so that rounding errors do not matter.
 std::string fingerprintOf(const WorldModel& world);
 
 }  // namespace ortung
