@@ -187,7 +187,7 @@ TEST_F(LiftRides, ToOneOfTwoEqualFloorsStayOpen) {
   EXPECT_EQ(figures.confidentlyWrong, 0);
 }
 
-/// A lift of which nobody has told carries the robot away: it is found again.
+/// A lift that the world file leaves out carries the robot away: it is found again.
 TEST_F(LiftRides, ThatNobodyToldOfAreNoticed) {
   const Figures figures = manyRides(false, "");
   EXPECT_EQ(figures.confidentlyWrong, 0);

@@ -84,7 +84,7 @@ TEST(LiveFloors, StayUntilNearlyAllOfTheBeliefIsElsewhere) {
   std::vector<float> places(100, 35.0F);
   places[0] = places[1] = places[2] = 5.0F;
   floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kLost), samplesAt(places));
-  EXPECT_EQ(floors.name(), "") << "whoever is lost is nowhere";
+  EXPECT_EQ(floors.name(), "") << "a lost robot is on no floor";
   floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kUncertain), samplesAt(places));
   EXPECT_EQ(floors.name(), "first");
   EXPECT_TRUE(floors.isHere({35.0, 1.0, 0.0}));

@@ -34,7 +34,7 @@ struct LiftStop {
 /// A lift: a robot that stands in it may be at any of its stops a moment later.
 struct Lift {
   std::string name;
-  double radius = 1.0;  ///< whoever is this near to its middle stands in it [m]
+  double radius = 1.0;  ///< distance from its middle up to which a robot is in it [m]
   std::vector<LiftStop> stops;
 };
 
