@@ -49,7 +49,7 @@ void appendEstimateJson(const PoseEstimate& estimate, std::optional<double> age,
   line["relocalization"] = nameOf(estimate.relocalization);
   line["age_s"] = age ? nlohmann::ordered_json(*age) : nlohmann::ordered_json();
   if (!building.isEmpty()) {
-    const Floor& floor = building.floors[building.floorAt(estimate.pose.x)];
+    const Floor& floor = building.floorOf(estimate.pose.x);
     const Pose2 there = floor.fromField(estimate.pose);
     line["floor"] = floor.name;
     line["floor_pose"] = {there.x, there.y, there.theta};

@@ -92,7 +92,7 @@ std::optional<Pose2> LiveFloors::carried(const Pose2& inField, const Building& t
   Pose2 own = inField;
   std::string name = floor;
   if (!building_.isEmpty()) {
-    const Floor& from = building_.floors[building_.floorAt(inField.x)];
+    const Floor& from = building_.floorOf(inField.x);
     own = from.fromField(inField);
     if (name.empty()) name = from.name;
   }

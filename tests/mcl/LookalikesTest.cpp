@@ -177,7 +177,7 @@ TEST(LookalikesOfFloors, EqualFloorsAreNeverToldApart) {
         logs.clear();
         for (std::size_t i = 0; i < set.size(); ++i) {
           const double x = static_cast<double>(set.x[i]);
-          const Pose2 onFloor = building.floors[building.floorAt(x)].fromField(
+          const Pose2 onFloor = building.floorOf(x).fromField(
               {x, static_cast<double>(set.y[i]), static_cast<double>(set.theta[i])});
           // Sharper than a look-alike climbs.
           logs.push_back(

@@ -23,7 +23,7 @@ bool LiftRides::isInLift(double x, double y) const {
 std::optional<Pose2> LiftRides::randomStop(const Pose2& pose, Random& random) const {
   const Building& building = region_.building;
   if (building.lifts.empty()) {
-    const Floor& from = building.floors[building.floorAt(pose.x)];
+    const Floor& from = building.floorOf(pose.x);
     const Floor& to =
         building.floors[static_cast<std::size_t>(random.below(building.floors.size()))];
     const Pose2 there = to.toField(from.fromField(pose));

@@ -66,10 +66,10 @@ void Lookalikes::exchange(const Pose2& left, const Pose2& estimate) {
 /// Puts places on other floors that are at the estimate's place there to exactly its pose.
 void Lookalikes::alignFloors() {
   if (building_.isEmpty()) return;
-  const Floor& here = building_.floors[building_.floorAt(estimate_.x)];
+  const Floor& here = building_.floorOf(estimate_.x);
   const Pose2 onFloor = here.fromField(estimate_);
   for (Place& place : places_) {
-    const Floor& there = building_.floors[building_.floorAt(place.pose.x)];
+    const Floor& there = building_.floorOf(place.pose.x);
     if (&there != &here && isSame(there.fromField(place.pose), onFloor))
       place.pose = there.toField(onFloor);
   }

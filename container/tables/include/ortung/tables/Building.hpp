@@ -47,6 +47,8 @@ struct Building {
   bool isEmpty() const { return floors.empty(); }
   /// Returns the index of the floor of a place in the field. @pre !isEmpty(), x is finite
   ORTUNG_API std::size_t floorAt(double x) const;
+  /// Returns the floor of a place in the field. @pre !isEmpty(), x is finite
+  const Floor& floorOf(double x) const { return floors[floorAt(x)]; }
   /// Returns the index of the floor of a name; nothing: there is none.
   ORTUNG_API std::optional<std::size_t> find(const std::string& name) const;
   /// Checks what a file says. @throws std::invalid_argument naming the floor or lift: strips that
