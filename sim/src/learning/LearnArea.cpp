@@ -23,17 +23,15 @@ std::size_t partAround(const std::array<double, 2>& point, const FieldParts& par
   return *found;
 }
 
-/// Returns the columns and rows of a region's cells that lie on a floor.
+/// Returns a region's columns from `from` to `to`; of its cells only which are standable.
 FieldRegion cutOut(const FieldRegion& region, int from, int to) {
   FieldRegion part;
   part.grid = region.grid;
   part.grid.originX += from * region.grid.cell;
   part.grid.columns = to - from;
-  for (auto mask : {&FieldRegion::open, &FieldRegion::standable}) {
-    for (int row = 0; row < region.grid.rows; ++row) {
-      const auto begin = (region.*mask).begin() + std::ptrdiff_t{row} * region.grid.columns;
-      (part.*mask).insert((part.*mask).end(), begin + from, begin + to);
-    }
+  for (int row = 0; row < region.grid.rows; ++row) {
+    const auto begin = region.standable.begin() + std::ptrdiff_t{row} * region.grid.columns;
+    part.standable.insert(part.standable.end(), begin + from, begin + to);
   }
   return part;
 }
