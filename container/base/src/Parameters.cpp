@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <set>
 
+#include "ortung/base/Nearest.hpp"
+
 namespace ortung {
 
 struct Parameters::Table {
@@ -12,7 +14,10 @@ struct Parameters::Table {
   std::map<std::string, Node> values;
   std::set<std::string> read;   ///< keys whose values were read
   std::set<std::string> asked;  ///< keys that a reader knows
-  int line = 0;                 ///< line at which the table begins; 0: not known
+  bool isSurveyed = false;
+  std::map<std::string, Question> questions;  ///< kept only in a survey: large files have many
+  std::map<std::string, std::vector<Parameters>> askedTables;
+  int line = 0;  ///< line at which the table begins; 0: not known
 };
 
 namespace {
@@ -33,6 +38,15 @@ std::string toText(const Range& range) {
 std::string numberWithin(const Range& range) {
   const bool bounded = std::isfinite(range.low) || std::isfinite(range.high);
   return bounded ? "a number " + toText(range) : "a number";
+}
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+template <class Items, class ToText>
+std::string listOf(const Items& items, ToText toText) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + toText(item);
+  return "[" + text + "]";
 }
 
 const char* kindOf(const Parameters::Node& node) {
@@ -85,6 +99,37 @@ const Parameters::Node* Parameters::look(const std::string& key) const {
   return &it->second;
 }
 
+void Parameters::survey() { table_->isSurveyed = true; }
+
+void Parameters::note(const std::string& key, Question question) const {
+  if (!table_->isSurveyed) return;
+  const auto [there, isNew] = table_->questions.try_emplace(key, question);
+  if (isNew) return;
+  // The same value may be asked for in several ways, e.g. as one of some words after as a text.
+  if (question.kind != there->second.kind) return;
+  if (!question.fallback) question.fallback = there->second.fallback;
+  if (question.choices.empty()) question.choices = there->second.choices;
+  there->second = std::move(question);
+}
+
+void Parameters::keepAsked(const std::string& key, const std::vector<Parameters>& tables) const {
+  if (!table_->isSurveyed) return;
+  std::vector<Parameters>& all = table_->askedTables[key];
+  for (const Parameters& table : tables) {
+    const auto isIt = [&](const Parameters& one) { return one.table_ == table.table_; };
+    if (std::any_of(all.begin(), all.end(), isIt)) continue;
+    table.table_->isSurveyed = true;
+    all.push_back(table);
+  }
+}
+
+std::map<std::string, Question> Parameters::questions() const { return table_->questions; }
+
+std::vector<Parameters> Parameters::askedTables(const std::string& key) const {
+  const auto found = table_->askedTables.find(key);
+  return found == table_->askedTables.end() ? std::vector<Parameters>() : found->second;
+}
+
 void Parameters::fail(const std::string& key, const std::string& message) const {
   const auto it = table_->values.find(key);
   std::string place = table_->where;
@@ -124,16 +169,19 @@ double Parameters::toNumber(const std::string& key, const Node& node, const Rang
 }
 
 double Parameters::number(const std::string& key, const Range& range) const {
+  note(key, {.kind = Question::Kind::kNumber, .range = range});
   return toNumber(key, need(key), range);
 }
 
 double Parameters::numberOr(const std::string& key, double fallback, const Range& range) const {
+  note(key, {.kind = Question::Kind::kNumber, .range = range, .fallback = toText(fallback)});
   const Node* node = look(key);
   return node == nullptr ? fallback : toNumber(key, *node, range);
 }
 
 std::int64_t Parameters::integer(const std::string& key, const Range& range) const {
-  const double value = number(key, range);
+  note(key, {.kind = Question::Kind::kInteger, .range = range});
+  const double value = toNumber(key, need(key), range);
   if (value != std::floor(value) || std::abs(value) > 0x1p53) {
     fail(key, "is " + toText(value) + ", expected a whole number");
   }
@@ -142,10 +190,13 @@ std::int64_t Parameters::integer(const std::string& key, const Range& range) con
 
 std::int64_t Parameters::integerOr(const std::string& key, std::int64_t fallback,
                                    const Range& range) const {
+  note(key,
+       {.kind = Question::Kind::kInteger, .range = range, .fallback = std::to_string(fallback)});
   return look(key) == nullptr ? fallback : integer(key, range);
 }
 
 std::string Parameters::text(const std::string& key) const {
+  note(key, {.kind = Question::Kind::kText});
   const Node& node = need(key);
   const auto* text = std::get_if<std::string>(&node.value);
   if (text == nullptr) fail(key, std::string("is ") + kindOf(node) + ", expected a text");
@@ -153,21 +204,24 @@ std::string Parameters::text(const std::string& key) const {
 }
 
 std::string Parameters::textOr(const std::string& key, const std::string& fallback) const {
+  note(key, {.kind = Question::Kind::kText, .fallback = quoted(fallback)});
   return look(key) == nullptr ? fallback : text(key);
 }
 
 std::string Parameters::choiceOr(const std::string& key, const std::string& fallback,
                                  const std::vector<std::string>& choices) const {
+  note(key, {.kind = Question::Kind::kText, .choices = choices, .fallback = quoted(fallback)});
   const std::string value = textOr(key, fallback);
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
     std::string list;
     for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-    fail(key, "is '" + value + "', must be one of: " + list);
+    fail(key, "is '" + value + "', must be one of: " + list + didYouMean(value, choices));
   }
   return value;
 }
 
 bool Parameters::flagOr(const std::string& key, bool fallback) const {
+  note(key, {.kind = Question::Kind::kFlag, .fallback = fallback ? "true" : "false"});
   const Node* node = look(key);
   if (node == nullptr) return fallback;
   const auto* flag = std::get_if<bool>(&node->value);
@@ -177,6 +231,7 @@ bool Parameters::flagOr(const std::string& key, bool fallback) const {
 
 std::vector<double> Parameters::numbers(const std::string& key, int count,
                                         const Range& range) const {
+  note(key, {.kind = Question::Kind::kNumbers, .range = range, .count = count});
   const Node& node = need(key);
   const auto* list = std::get_if<List>(&node.value);
   if (list == nullptr)
@@ -194,10 +249,15 @@ std::vector<double> Parameters::numbers(const std::string& key, int count,
 std::vector<double> Parameters::numbersOr(const std::string& key,
                                           const std::vector<double>& fallback, int count,
                                           const Range& range) const {
+  note(key, {.kind = Question::Kind::kNumbers,
+             .range = range,
+             .count = count,
+             .fallback = listOf(fallback, [](double value) { return toText(value); })});
   return look(key) == nullptr ? fallback : numbers(key, count, range);
 }
 
 std::vector<std::string> Parameters::texts(const std::string& key) const {
+  note(key, {.kind = Question::Kind::kTexts});
   const Node& node = need(key);
   const auto* list = std::get_if<List>(&node.value);
   if (list == nullptr) fail(key, std::string("is ") + kindOf(node) + ", expected a list of texts");
@@ -211,12 +271,18 @@ std::vector<std::string> Parameters::texts(const std::string& key) const {
 }
 
 Parameters Parameters::table(const std::string& key) const {
+  note(key, {.kind = Question::Kind::kTable, .fallback = "{}"});
   const Node* node = look(key);
-  if (node == nullptr) return Parameters(table_->where);
+  if (node == nullptr) {
+    const Parameters missing(table_->where);
+    keepAsked(key, {missing});
+    return missing;
+  }
   const auto* table = std::get_if<Parameters>(&node->value);
   if (table == nullptr)
     fail(key, std::string("is ") + kindOf(*node) + ", expected a table [" + key + "]");
   table->table_->line = node->line;
+  keepAsked(key, {*table});
   return *table;
 }
 
@@ -228,6 +294,7 @@ Parameters Parameters::takeTable(const std::string& key) const {
 }
 
 std::vector<Parameters> Parameters::tables(const std::string& key) const {
+  note(key, {.kind = Question::Kind::kTables, .fallback = "[]"});
   const Node* node = look(key);
   if (node == nullptr) return {};
   const auto* list = std::get_if<List>(&node->value);
@@ -241,15 +308,18 @@ std::vector<Parameters> Parameters::tables(const std::string& key) const {
     table->table_->line = entry.line;
     tables.push_back(*table);
   }
+  keepAsked(key, tables);
   return tables;
 }
 
 void Parameters::refuseUnread() const {
   for (const auto& [key, node] : table_->values) {
     if (!table_->read.contains(key)) {
+      const std::vector<std::string> names(table_->asked.begin(), table_->asked.end());
       std::string known;
-      for (const std::string& name : table_->asked) known += (known.empty() ? "" : ", ") + name;
-      fail(key, "is not known here" + (known.empty() ? "" : "; known are " + known));
+      for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+      fail(key, "is not known here" + didYouMean(key, names) +
+                    (known.empty() ? "" : "; known are " + known));
     }
     if (const auto* table = std::get_if<Parameters>(&node.value)) table->refuseUnread();
     if (const auto* list = std::get_if<List>(&node.value)) {

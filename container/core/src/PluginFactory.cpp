@@ -7,10 +7,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <span>
 
 #include "ortung/base/InputFile.hpp"
 #include "ortung/base/LibraryFolder.hpp"
+#include "ortung/base/Nearest.hpp"
 #include "ortung/core/PluginGuard.hpp"
 
 namespace ortung {
@@ -222,6 +224,22 @@ bool PluginFactory::hides(const std::vector<Complaint>& complaints, const std::s
   });
 }
 
+/// Returns an error that names the plugin, the nearest one of that kind, and all of that kind.
+std::string PluginFactory::missing(const std::string& interface, const std::string& name) const {
+  std::set<std::string> there;  // in the order of the alphabet, whatever was loaded first
+  for (const Library& library : libraries_)
+    for (const PluginEntry& entry : std::span(library.info->entries, library.info->count))
+      if (entry.interface == interface) there.insert(entry.name);
+  const std::vector<std::string> names(there.begin(), there.end());
+  std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) +
+                        didYouMean(name, names) +
+                        (names.empty() ? "; there is none" : "; there are ");
+  for (const std::string& one : names) message += (&one == &names.front() ? "" : ", ") + one;
+  std::string folders;
+  for (const auto& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
+  return message + " (in " + (folders.empty() ? "the empty search path" : folders) + ")";
+}
+
 void* PluginFactory::create(const std::string& interface, const std::string& name,
                             const Parameters& parameters) {
   const PluginEntry* entry = findEntry(interface, name);
@@ -239,11 +257,7 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
     entry = findEntry(interface, name);
   }
   if (entry == nullptr) {
-    std::string folders;
-    for (const auto& folder : folders_) folders += (folders.empty() ? "" : ", ") + folder.string();
-    std::string message = "there is no plugin '" + name + "' of kind " + interfaceKind(interface) +
-                          " in " + (folders.empty() ? "the (empty) search path" : folders) +
-                          "; `ortung plugins` lists what there is";
+    std::string message = missing(interface, name);
     for (const Complaint& complaint : complaints) message += "; not loaded: " + complaint.what;
     throw PluginError(message);
   }

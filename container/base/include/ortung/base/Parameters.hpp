@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -27,6 +28,16 @@ struct Range {
   double low = -std::numeric_limits<double>::infinity();
   /// greatest permitted value
   double high = std::numeric_limits<double>::infinity();
+};
+
+/// What a reader asked a table for: what may be there, for schemas and templates.
+struct Question {
+  enum class Kind { kFlag, kInteger, kNumber, kText, kNumbers, kTexts, kTable, kTables };
+  Kind kind = Kind::kText;
+  Range range;                          ///< bounds of a number, or of each one of a list
+  int count = -1;                       ///< how many numbers a list has; -1: any number
+  std::vector<std::string> choices;     ///< the only texts that are permitted; empty: any
+  std::optional<std::string> fallback;  ///< what holds without the key, as TOML; nothing: required
 };
 
 /// Settings of one plugin or one part of a file: a table of keys with numbers, texts, flags, lists
@@ -89,10 +100,21 @@ class ORTUNG_API Parameters {
   void refuseUnread() const;
   const std::string& where() const;  ///< file or other origin, as errors call it
 
+  /// From now on this table, and tables that are read from it, remember what they are asked.
+  void survey();
+  /// Returns what readers asked this table for since survey(), by key, whether or not it is there;
+  /// keys of which they only asked whether they exist are not among it.
+  std::map<std::string, Question> questions() const;
+  /// Returns the tables under a key that readers asked for since survey(), with the questions that
+  /// were put to them; an empty one each time that a table was not there.
+  std::vector<Parameters> askedTables(const std::string& key) const;
+
  private:
   struct Table;
   const Node* look(const std::string& key) const;
   const Node& need(const std::string& key) const;
+  void note(const std::string& key, Question question) const;
+  void keepAsked(const std::string& key, const std::vector<Parameters>& tables) const;
   double toNumber(const std::string& key, const Node& node, const Range& range) const;
   std::shared_ptr<Table> table_;
 };

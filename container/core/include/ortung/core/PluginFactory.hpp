@@ -96,6 +96,7 @@ class ORTUNG_API PluginFactory {
   void* create(const std::string& interface, const std::string& name, const Parameters& parameters);
   const PluginEntry* findEntry(const std::string& interface, const std::string& name) const;
   std::vector<Complaint> loadWhere(const std::string& part);
+  std::string missing(const std::string& interface, const std::string& name) const;
   bool hides(const std::vector<Complaint>& complaints, const std::string& interface,
              const std::string& name) const;
 
