@@ -8,6 +8,11 @@ function(ortung_command_group name summary example)
   set_property(GLOBAL APPEND_STRING PROPERTY ORTUNG_CATALOGUE_GROUPS "{\"${name}\", \"${summary}\", \"${example}\"},\n")
 endfunction()
 
+# ortung_command_section("Localize")  the heading of the commands that follow in `ortung --help`
+function(ortung_command_section heading)
+  set_property(GLOBAL PROPERTY ORTUNG_COMMAND_SECTION "${heading}")
+endfunction()
+
 # ortung_command(learn PACKAGE ortung-sim
 #   COMMANDS learn "Learn what a robot's sensors read all over a world" [further names and summaries]
 #   SOURCES learn/LearnOptions.cpp learn/Learn.cpp LINK app_options ortung::sim [PLUGINS learner_player])
@@ -16,13 +21,14 @@ endfunction()
 function(ortung_command name)
   cmake_parse_arguments(ARG "" "PACKAGE" "COMMANDS;SOURCES;LINK;PLUGINS" ${ARGN})
   set(rest ${ARG_COMMANDS})
+  get_property(section GLOBAL PROPERTY ORTUNG_COMMAND_SECTION)
   while(rest)
     list(POP_FRONT rest command summary)
     if(NOT summary)
       message(FATAL_ERROR "ortung_command(${name}): '${command}' has no summary")
     endif()
     set_property(GLOBAL APPEND_STRING PROPERTY ORTUNG_CATALOGUE_COMMANDS
-                 "{\"${command}\", \"${summary}\", \"${name}\", \"${ARG_PACKAGE}\"},\n")
+                 "{\"${command}\", \"${summary}\", \"${name}\", \"${ARG_PACKAGE}\", \"${section}\"},\n")
   endwhile()
   set_property(GLOBAL PROPERTY ORTUNG_PLUGINS_OF_command_${name} ${ARG_PLUGINS})
   foreach(library IN LISTS ARG_LINK)

@@ -11,6 +11,8 @@
 #include <memory>
 #include <system_error>
 
+#include "Colours.hpp"
+
 namespace ortung::app {
 namespace {
 
@@ -37,8 +39,10 @@ spdlog::logger& logger() {
 void setCommandName(const std::string& name) { logger().set_pattern(name + ": %v"); }
 
 void note(const std::string& text) { logger().info("{}", printable(text)); }
-void warn(const std::string& text) { logger().warn("warning: {}", printable(text)); }
-void fail(const std::string& text) { logger().error("{}", printable(text)); }
+void warn(const std::string& text) {
+  logger().warn("{} {}", yellow("warning:", stderr), printable(text));
+}
+void fail(const std::string& text) { logger().error("{}", red(printable(text), stderr)); }
 
 void reserveStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

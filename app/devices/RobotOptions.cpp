@@ -9,6 +9,7 @@ namespace {
 
 void addLocalization(Builder& build, LocalizationArguments& a) {
   build.option("--tables", a.tables, "Table file of `ortung learn`: localize, too");
+  const HelpGroup group(build, "Localization");
   build.option("--seed", a.seed, "Seed of all random numbers").showsDefault();
   build.option("--particles", a.particles, "Greatest number of samples; default: the robot file's")
       .within(1, 1e7);

@@ -12,7 +12,9 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Schema.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/records/RecordEnd.hpp"
@@ -31,21 +33,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind { kWorld, kScene, kRobot, kTables, kRecord };
-
 /// Recognizes the kind of a file by its content.
-Kind kindOf(const fs::path& file) {
+FileKind kindOf(const fs::path& file) {
   std::string why;
-  std::ifstream in = openInput(file, why);
-  if (!in) throw std::runtime_error(file.string() + ": " + why);
-  char bytes[24] = {};
-  in.read(bytes, sizeof bytes);
-  const std::string_view begin(bytes, static_cast<std::size_t>(in.gcount()));
-  if (begin.starts_with("PK")) return Kind::kTables;
-  if (isRecord(begin)) return Kind::kRecord;
+  if (const std::ifstream in = openInput(file, why); !in)
+    throw std::runtime_error(file.string() + ": " + why);
+  if (isGridMap(file)) return FileKind::kMapServer;
+  const FileKind kind = kindOfFile(file);
+  if (kind != FileKind::kUnknown && kind != FileKind::kMotion) return kind;
   const Parameters toml = readToml(file);
-  if (toml.has("scene")) return Kind::kScene;
-  return toml.has("sensor") ? Kind::kRobot : Kind::kWorld;
+  if (toml.has("scene")) return FileKind::kScene;
+  return toml.has("sensor") ? FileKind::kRobot : FileKind::kWorld;
 }
 
 std::size_t countOf(const std::vector<std::uint8_t>& mask) {
@@ -228,22 +226,34 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
 
 void checkFile(const fs::path& file, const CheckArguments& arguments) {
   switch (kindOf(file)) {
-    case Kind::kWorld:
+    case FileKind::kMapServer:
+      note(file.string() + ": is a grid map, taken as a world");
       return checkWorldFile(file, arguments);
-    case Kind::kScene:
+    case FileKind::kWorld:
+      return checkWorldFile(file, arguments);
+    case FileKind::kScene:
       return checkSceneFile(file);
-    case Kind::kRobot:
+    case FileKind::kRobot:
       return checkRobotFile(file);
-    case Kind::kTables:
+    case FileKind::kTables:
+    case FileKind::kZip:
       return checkTables(file, arguments);
-    case Kind::kRecord:
+    case FileKind::kRecord:
       return checkRecord(file, arguments);
+    default:
+      throw std::runtime_error(file.string() + ": is " + nameOf(kindOf(file)) +
+                               ", expected a world, scene, robot file, map, tables or a record");
   }
 }
 
 }  // namespace
 
 int runCheck(const CheckArguments& arguments) {
+  if (!arguments.schema.empty()) {
+    fmt::print("{}\n", schemaOf(arguments.schema));
+    return 0;
+  }
+  if (arguments.files.empty()) throw UsageError("files is required");
   std::size_t bad = 0;
   for (const fs::path& file : arguments.files) {
     try {

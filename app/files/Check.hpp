@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace ortung::app {
@@ -10,6 +11,7 @@ struct CheckArguments {
   std::vector<std::filesystem::path> files;
   std::filesystem::path world;  ///< world of the tables; "": not checked
   std::filesystem::path robot;  ///< robot of the tables; "": not checked
+  std::string schema;           ///< kind of file whose schema is printed; "": none
   bool mend = false;            ///< whether to cut off an incomplete end of a record
 };
 int runCheck(const CheckArguments& arguments);

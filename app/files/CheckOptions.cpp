@@ -8,9 +8,13 @@ namespace {
 void addCheck(Builder& build) {
   const auto a = build.command<CheckArguments>(
       "check", "ortung check hall.ortung --world hall.toml --robot robot.toml", runCheck);
-  build.option("files", a->files, "Files; their kinds are recognized by their content").required();
+  build.option("files", a->files, "Files; their kinds are recognized by their content");
   build.option("--world", a->world, "World in which the tables must have been learned");
   build.option("--robot", a->robot, "Robot for which the tables must have been learned");
+  build
+      .option("--schema", a->schema,
+              "Print the JSON schema of a kind of file, for editors that complete and check TOML")
+      .oneOf({"robot", "world", "scene"});
   build.flag("--mend", a->mend, "Cut off the incomplete end of a record whose recorder was killed");
 }
 

@@ -1,36 +1,50 @@
 #include "Plugins.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <cstring>
+#include <algorithm>
+#include <array>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <thread>
+#include <optional>
+#include <set>
 
 #include "Console.hpp"
-#include "ortung/base/HelperProgram.hpp"
-#include "ortung/core/PluginFactory.hpp"
+#include "PluginOffer.hpp"
+#include "SurveyedPlugins.hpp"
+#include "ortung/base/Nearest.hpp"
 #include "ortung/sim_api/Player.hpp"
 
 namespace ortung::app {
 namespace {
 
-constexpr std::size_t kMostBytes = 1u << 20;  // greatest size of a library's offer
+/// A kind of plugins, as people call it.
+struct Kind {
+  const char* word;
+  std::vector<std::string> interfaces;  ///< interfaces that its plugins have, the first one always
+  std::optional<PluginKind> table;      ///< table of a file that holds its settings
+};
 
-/// Returns the kind of an interface: that of "ortung.Source/0.2.0-3f2a" is "Source".
-std::string kindOf(const std::string& interface) {
-  const std::size_t begin = interface.starts_with("ortung.") ? 7 : 0;
-  return interface.substr(begin, interface.find('/', begin) - begin);
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> kKinds = {
+      {"sensor", {"SensorData", "Sensor", "Extractor"}, PluginKind::kSensor},
+      {"motion", {"MotionModel"}, PluginKind::kMotion},
+      {"drive", {"Drive"}, PluginKind::kDrive},
+      {"source", {"Source"}, {}},
+      {"player", {"Player"}, {}},
+      {"referee", {"Referee"}, {}},
+      {"device", {"DeviceDriver"}, {}}};
+  return kKinds;
 }
 
-/// What a library offers, and the help of its players by lines.
-struct Offer {
-  PluginFactory::Found found;
-  std::map<std::string, std::vector<std::string>> help;  ///< lines of help by player
-};
+const Kind& kindNamed(const std::string& word) {
+  std::vector<std::string> words;
+  for (const Kind& kind : kinds()) {
+    if (kind.word == word) return kind;
+    words.push_back(kind.word);
+  }
+  throw UsageError("there is no kind of plugins '" + word + "'" + didYouMean(word, words) +
+                   "; there are " + kindsText());
+}
 
 void print(const Offer& offer) {
   const PluginFactory::Found& found = offer.found;
@@ -49,115 +63,126 @@ void print(const Offer& offer) {
   }
 }
 
-std::string toText(const Offer& offer) {
-  const PluginFactory::Found& found = offer.found;
-  auto entries = nlohmann::json::array();
-  for (const auto& entry : found.entries) entries.push_back({entry.interface, entry.name});
-  const nlohmann::json json = {{"library", found.library},
-                               {"version", found.version},
-                               {"error", found.error},
-                               {"entries", entries},
-                               {"help", offer.help}};
-  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+std::vector<Offer> lookAtAll(double timeout) {
+  std::vector<Offer> offers;
+  for (const auto& library : PluginFactory(PluginFactory::standardFolders()).libraries())
+    offers.push_back(lookAt(library, timeout));
+  return offers;
 }
 
-/// @throws nlohmann::json::exception
-Offer fromText(const std::string& text) {
-  const auto json = nlohmann::json::parse(text);
-  Offer offer;
-  PluginFactory::Found& found = offer.found;
-  found.library = json.at("library");
-  found.version = json.at("version");
-  found.error = json.at("error");
-  for (const auto& entry : json.at("entries")) found.entries.push_back({entry.at(0), entry.at(1)});
-  json.at("help").get_to(offer.help);
-  return offer;
-}
-
-// --- in the child process
-
-/// Writes what was found and ends the process without the library's destructors.
-[[noreturn]] void tell(int out, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(out, text.data() + done, text.size() - done);
-    if (count < 0) ::_exit(1);
-    done += static_cast<std::size_t>(count);
-  }
-  ::_exit(0);
-}
-
-Offer lookInside(const std::filesystem::path& library) {
-  PluginFactory factory;
-  Offer offer{factory.look(library), {}};
-  for (const auto& entry : offer.found.entries) {
-    if (entry.interface != PlayerHelp::kInterface) continue;
-    std::vector<std::string>& lines = offer.help[entry.name];
-    try {
-      const auto help = factory.make<PlayerHelp>(entry.name, Parameters());
-      lines.push_back(help->what());
-      for (const PlayerOption& option : help->options())
-        lines.push_back(fmt::format(
-            "{}{}: {}{}", option.key, option.unit.empty() ? "" : " [" + option.unit + "]",
-            option.meaning, option.fallback.empty() ? "" : "; default: " + option.fallback));
-    } catch (const std::exception& error) {
-      lines = {std::string("does not describe itself: ") + error.what()};
-    }
-  }
-  return offer;
-}
-
-/// Loads a library in this process and writes its offer to standard output, to which the library's
-/// code can't write. Loading may hang, so a thread watches it.
-[[noreturn]] void describe(const std::filesystem::path& library, double timeout) {
-  const int out = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (out < 0 || nothing < 0 || ::dup2(nothing, STDOUT_FILENO) < 0)
-    throw std::runtime_error(std::string("no output: ") + std::strerror(errno));
-  Offer late;
-  late.found.error = fmt::format("was not loaded within {:g} s", timeout);
-  std::thread([out, timeout, text = toText(late)] {
-    std::this_thread::sleep_for(std::chrono::duration<double>(timeout));
-    tell(out, text);
-  }).detach();
-  tell(out, toText(lookInside(library)));
-}
-
-// --- in the parent process
-
-/// Returns what a library offers, whatever its code does when it is loaded.
-Offer look(const std::filesystem::path& library, double timeout) {
-  Offer offer;
-  PluginFactory::Found& found = offer.found;
-  try {
-    offer = fromText(runHelper(
-        std::filesystem::read_symlink("/proc/self/exe"),
-        {"plugins", "--inside", library.string(), "--timeout", fmt::format("{}", timeout)},
-        library.string(), kMostBytes));
-  } catch (const nlohmann::json::exception&) {
-    found.error = "ended the process that loaded it";
-  } catch (const std::runtime_error& error) {
-    found.error = error.what();
-  }
-  found.file = library;
-  return offer;
-}
-
-}  // namespace
-
-int runPlugins(const PluginsArguments& arguments) {
-  if (!arguments.inside.empty()) describe(arguments.inside, arguments.timeout);
-  const std::vector<std::filesystem::path> folders = PluginFactory::standardFolders();
+int listLibraries(double timeout) {
   std::size_t broken = 0, count = 0;
-  for (const auto& library : PluginFactory(folders).libraries()) {
-    const Offer offer = look(library, arguments.timeout);
+  for (const Offer& offer : lookAtAll(timeout)) {
     print(offer);
     ++count;
     if (!offer.found.error.empty()) ++broken;
   }
   fmt::print("{} libraries, {} broken; searched in", count, broken);
-  for (const auto& folder : folders) fmt::print(" {}", printable(folder.string()));
+  for (const auto& folder : PluginFactory::standardFolders())
+    fmt::print(" {}", printable(folder.string()));
   fmt::print("\n  Source       record (built in)\n");
   return broken == 0 ? 0 : 1;
+}
+
+/// A row of the table of a kind.
+struct Row {
+  std::set<std::string> parts;      ///< interfaces of the kind that the plugin has
+  std::set<std::string> libraries;  ///< files that have them
+  std::vector<std::string> help;    ///< what it is, and its options; may be empty
+};
+
+std::map<std::string, Row> rowsOf(const Kind& kind, double timeout) {
+  std::map<std::string, Row> rows;
+  if (std::string(kind.word) == "source")
+    rows["record"] = {{"Source"}, {"built in"}, {"a record, see docs/files.md"}};
+  for (const Offer& offer : lookAtAll(timeout)) {
+    if (!offer.found.error.empty()) warn(offer.found.file.string() + ": " + offer.found.error);
+    for (const auto& entry : offer.found.entries) {
+      const std::string part = kindOf(entry.interface);
+      const auto& all = kind.interfaces;
+      if (std::find(all.begin(), all.end(), part) == all.end()) continue;
+      Row& row = rows[entry.name];
+      row.parts.insert(part);
+      row.libraries.insert(offer.found.file.filename().string());
+      if (const auto help = offer.help.find(entry.name); help != offer.help.end())
+        row.help = help->second;
+    }
+  }
+  return rows;
+}
+
+std::string joined(const std::set<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+int listKind(const Kind& kind, double timeout) {
+  const auto rows = rowsOf(kind, timeout);
+  if (rows.empty()) {
+    fmt::print("there are no plugins of this kind\n");
+    return 0;
+  }
+  std::size_t width = 0;
+  for (const auto& [name, row] : rows) width = std::max(width, name.size());
+  const bool hasHelp = std::any_of(rows.begin(), rows.end(),
+                                   [](const auto& row) { return !row.second.help.empty(); });
+  for (const auto& [name, row] : rows) {
+    const std::string what = row.help.empty() ? "" : row.help.front();
+    fmt::print("{:<{}}  {}\n", printable(name), width,
+               printable(hasHelp ? what : joined(row.parts) + "; " + joined(row.libraries)));
+  }
+  fmt::print("`ortung plugins {} NAME` shows more of one\n", kind.word);
+  return 0;
+}
+
+void printKeys(const KeySurvey& survey, const std::string& indent) {
+  for (const auto& [key, entry] : survey.keys) {
+    if (key == "plugin") continue;
+    std::string text = entry.question ? textOf(*entry.question) : "";
+    if (entry.isRequired) text += "; required";
+    if (entry.question && entry.question->fallback && *entry.question->fallback != "{}" &&
+        *entry.question->fallback != "[]")
+      text += "; default: " + *entry.question->fallback;
+    fmt::print("{}{:<{}} {}\n", indent, key, 28 - indent.size(), text);
+    if (const auto below = survey.tables.find(key); below != survey.tables.end())
+      printKeys(below->second, indent + "  ");
+  }
+}
+
+int describePlugin(const Kind& kind, const std::string& name, double timeout) {
+  if (kind.table) {
+    PluginFactory factory(PluginFactory::standardFolders());
+    printKeys(surveyPlugin(factory, *kind.table, name), "");
+    return 0;
+  }
+  const auto rows = rowsOf(kind, timeout);
+  const auto row = rows.find(name);
+  if (row == rows.end()) {
+    std::vector<std::string> names;
+    for (const auto& [one, its] : rows) names.push_back(one);
+    throw UsageError(
+        fmt::format("there is no {} '{}'{}", kind.word, name, didYouMean(name, names)));
+  }
+  fmt::print("{} '{}', in {}\n", kind.word, printable(name), joined(row->second.libraries));
+  for (const std::string& line : row->second.help) fmt::print("  {}\n", printable(line));
+  return 0;
+}
+
+}  // namespace
+
+std::string kindsText() {
+  std::string text;
+  for (const Kind& kind : kinds()) text += (text.empty() ? "" : ", ") + std::string(kind.word);
+  return text;
+}
+
+int runPlugins(const PluginsArguments& arguments) {
+  if (!arguments.inside.empty()) describeOffer(arguments.inside, arguments.timeout);
+  if (arguments.kind.empty()) return listLibraries(arguments.timeout);
+  const Kind& kind = kindNamed(arguments.kind);
+  if (arguments.name.empty()) return listKind(kind, arguments.timeout);
+  return describePlugin(kind, arguments.name, arguments.timeout);
 }
 
 }  // namespace ortung::app

@@ -7,7 +7,10 @@ namespace {
 
 void addPlugins(Builder& build) {
   const auto a = build.command<PluginsArguments>(
-      "plugins", "ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins", runPlugins);
+      "plugins", "ortung plugins sensor lrf\n  ORTUNG_PLUGIN_PATH=~/my-plugins ortung plugins",
+      runPlugins);
+  build.option("kind", a->kind, "List plugins of one kind: " + kindsText());
+  build.option("name", a->name, "Show what its part of a file may hold, or what its options are");
   build.option("--timeout", a->timeout, "Longest time to load a library [s]")
       .within(0.1, 3600.0)
       .showsDefault();

@@ -24,6 +24,7 @@ void addEval(Builder& build) {
   build.keepGiven(first, a->localizationWords);
   addSettings(build, a->localization.settings);
   build.flag("--force", a->localization.force, kForce);
+  build.group("Results");
   build.option("--json", a->json, "Write the figures as JSON");
   build.option("--report", a->report, "Write a page with map, charts and figures");
   build.option(
@@ -35,7 +36,6 @@ void addEval(Builder& build) {
              "readings");
   build.flag("--no-times", a->timesNothing,
              "Leave out how long updates took, so that equal runs write equal figures");
-  build.shard(a->shard, a->job);
   build.flag("--view", a->isViewing,
              "Show the run of a single source in a web browser afterwards, with a time line");
   build.option("--record", a->record, "Write all readings as a record");
@@ -43,6 +43,7 @@ void addEval(Builder& build) {
       .option("--converged-within", a->convergedWithin,
               "Error m,deg below which the filter has converged")
       .showsDefault();
+  build.group("Harder runs, and many of them");
   build
       .option("--fault", a->faults,
               "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
@@ -65,6 +66,7 @@ void addEval(Builder& build) {
       .option("--teleport", a->teleport,
               "Kidnaps per metre travelled, e.g. 0.005, in each of --runs runs")
       .within(1e-6, 1e3);
+  build.shard(a->shard, a->job);
   build.footer([example] {
     return "Faults: WHAT is odometry, readings (all others) or a feature's name; times in seconds "
            "since the first reading:\n" +

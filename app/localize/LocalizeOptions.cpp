@@ -17,6 +17,7 @@ void addLocalize(Builder& build) {
   addLocalization(build, a->localization, Localizes::kAlways);
   addSettings(build, a->localization.settings);
   build.flag("--force", a->localization.force, kForce);
+  build.group("Results");
   build.option("--out", a->out, "File to write; default: stdout");
   build
       .option("--rate", a->rate,

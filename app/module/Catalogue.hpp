@@ -12,6 +12,7 @@ struct CatalogueEntry {
   const char* summary;  ///< its purpose
   const char* module;   ///< the module that has it
   const char* package;  ///< Debian package of the module
+  const char* section;  ///< heading under which `ortung --help` lists it
 };
 
 /// A group of commands that begin with the same word.

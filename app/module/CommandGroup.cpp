@@ -9,11 +9,11 @@
 namespace ortung::app {
 namespace {
 
-CLI::App& groupOf(CLI::App& root, const std::string& word) {
+CLI::App& groupOf(CLI::App& root, const std::string& word, const char* section) {
   const auto isIt = [&](const CLI::App* app) { return app->get_name() == word; };
   for (CLI::App* there : root.get_subcommands(isIt)) return *there;
   const CatalogueGroup& group = groupNamed(word);
-  CLI::App* made = root.add_subcommand(word, group.summary);
+  CLI::App* made = root.add_subcommand(word, group.summary)->group(section);
   made->require_subcommand(1);
   made->footer(std::string("Example:\n  ") + group.example);
   return *made;
@@ -23,8 +23,10 @@ CLI::App& groupOf(CLI::App& root, const std::string& word) {
 
 CLI::App& addCommand(CLI::App& root, const std::string& name) {
   const std::size_t blank = name.find(' ');
-  CLI::App& parent = blank == name.npos ? root : groupOf(root, name.substr(0, blank));
-  return *parent.add_subcommand(name.substr(blank + 1), commandNamed(name).summary);
+  const CatalogueEntry& entry = commandNamed(name);
+  if (blank == name.npos) return *root.add_subcommand(name, entry.summary)->group(entry.section);
+  CLI::App& parent = groupOf(root, name.substr(0, blank), entry.section);
+  return *parent.add_subcommand(name.substr(blank + 1), entry.summary)->group("Commands");
 }
 
 }  // namespace ortung::app

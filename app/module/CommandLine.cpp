@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "Console.hpp"
+#include "HelpFormatter.hpp"
 #include "OptionBuilder.hpp"
 #include "UsageText.hpp"
 
@@ -32,6 +33,7 @@ ParsedCommand parseCommandLine(const std::vector<CommandDeclaration>& commands, 
   for (int i = 1; i < argc; ++i) commandLine += " " + quoted(argv[i]);
 
   CLI::App app("", "ortung");
+  app.formatter(helpFormatter());
   app.require_subcommand(1);
   Builder build(app, parsed, commandLine);
   for (const CommandDeclaration declare : commands) declare(build);
@@ -39,7 +41,7 @@ ParsedCommand parseCommandLine(const std::vector<CommandDeclaration>& commands, 
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     parsed.run = nullptr;
-    parsed.exitCode = printUsage(app, error);
+    parsed.exitCode = printUsage(app, error, {argv + std::min(argc, 1), argv + argc});
   }
   return parsed;
 }

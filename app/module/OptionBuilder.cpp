@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "CommandGroup.hpp"
+#include "HelpFormatter.hpp"
 
 namespace ortung::app {
 namespace {
@@ -38,6 +39,12 @@ bool neverMatters(const std::string& name) {
   static constexpr std::array<std::string_view, 10> kNames = {
       "--threads", "--progress", "--force", "--shard",          "--out",
       "--json",    "--html",     "--help",  "--plugin-seconds", "--view"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
+/// Whether all commands mean the same by an option of that name, so that it is listed last.
+bool isGeneral(const std::string& name) {
+  static constexpr std::array<std::string_view, 3> kNames = {"--threads", "--progress", "--force"};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
@@ -86,20 +93,27 @@ void Builder::begin(const std::string& name, const std::string& example, std::fu
     for (const auto& action : *actions) action();
   });
   current_->footer("Example:\n  " + example);
+  group_ = kGeneral;
   option("--plugin-seconds", parsed_.pluginSeconds,
          "Longest time of a plugin's call, after which the program saves its results and ends "
          "[s]; 0: unlimited")
       .within(0.0, 1e6)
       .showsDefault();
+  current_->get_help_ptr()->group(kGeneral);
+  group_ = "Options";
   current_->callback([parsed = &parsed_, name, run = std::move(run)] {
     parsed->name = name;
     parsed->run = run;
   });
 }
 
+std::string Builder::groupOf(const std::string& name) const {
+  return isGeneral(name) ? kGeneral : group_;
+}
+
 template <class Value>
 Option Builder::option(const std::string& names, Value& value, const std::string& description) {
-  return Option(*current_->add_option(names, value, description));
+  return Option(*current_->add_option(names, value, description)->group(groupOf(names)));
 }
 template Option Builder::option(const std::string&, std::string&, const std::string&);
 template Option Builder::option(const std::string&, std::filesystem::path&, const std::string&);
@@ -117,12 +131,12 @@ template Option Builder::option(const std::string&, std::vector<std::filesystem:
                                 const std::string&);
 
 void Builder::flag(const std::string& name, bool& value, const std::string& description) {
-  current_->add_flag(name, value, description);
+  current_->add_flag(name, value, description)->group(groupOf(name));
 }
 
 void Builder::shortcut(const std::string& name, const std::string& description,
                        const std::function<void(const std::string&)>& take) {
-  current_->add_option_function<std::string>(name, take, description);
+  current_->add_option_function<std::string>(name, take, description)->group(group_);
 }
 
 void Builder::footer(std::function<std::string()> text) { current_->footer(std::move(text)); }

@@ -64,6 +64,10 @@ class Builder {
   /// Declares an option that stands for other ones.
   void shortcut(const std::string& name, const std::string& description,
                 const std::function<void(const std::string&)>& take);
+  /// Options that are declared from now on, up to the next call or command, are under this heading
+  /// of the help.
+  void group(const std::string& heading) { group_ = heading; }
+  const std::string& group() const { return group_; }
   /// Replaces the end of the help, by default the example; made when the help is printed.
   void footer(std::function<std::string()> text);
 
@@ -81,13 +85,30 @@ class Builder {
  private:
   void begin(const std::string& name, const std::string& example, std::function<int()> run);
   void afterParsing(std::function<void()> action);
+  std::string groupOf(const std::string& name) const;
 
   CLI::App& root_;
   ParsedCommand& parsed_;
   std::string commandLine_;
   CLI::App* current_ = nullptr;
+  std::string group_;
   /// What the command does once its options are parsed; the library keeps one function only.
   std::shared_ptr<std::vector<std::function<void()>>> afterParsing_;
+};
+
+/// While one lives, options that are declared are under a heading of their own in the help.
+class HelpGroup {
+ public:
+  HelpGroup(Builder& build, const std::string& heading) : build_(build), before_(build.group()) {
+    build.group(heading);
+  }
+  ~HelpGroup() { build_.group(before_); }
+  HelpGroup(const HelpGroup&) = delete;
+  HelpGroup& operator=(const HelpGroup&) = delete;
+
+ private:
+  Builder& build_;
+  std::string before_;
 };
 
 }  // namespace ortung::app

@@ -6,12 +6,15 @@
 #include <exception>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "Catalogue.hpp"
 #include "CommandGroup.hpp"
 #include "Console.hpp"
+#include "HelpFormatter.hpp"
 #include "ModuleLoader.hpp"
 #include "UsageText.hpp"
+#include "ortung/base/Nearest.hpp"
 
 // The program itself has only the names of its commands. Modules have their code and load their
 // libraries, and only the module of the requested command is opened.
@@ -31,9 +34,20 @@ const CatalogueEntry* commandOf(int argc, char** argv) {
   return nullptr;
 }
 
+/// Returns the words with which commands begin.
+std::vector<std::string> firstWords() {
+  std::vector<std::string> words;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const std::string name = entry.name;
+    words.push_back(name.substr(0, name.find(' ')));
+  }
+  return words;
+}
+
 /// Prints what needs no module: help, the version, or an error.
 int answer(int argc, char** argv) {
   CLI::App app("Ortung: learn what sensors see, and localize with it.", "ortung");
+  app.formatter(helpFormatter());
   app.set_version_flag("--version", "ortung " ORTUNG_VERSION);
   app.require_subcommand(1);
   app.footer(
@@ -45,9 +59,10 @@ int answer(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const std::string first = argc > 1 ? argv[1] : "";
     const bool isUnknown = app.get_subcommands().empty() && !first.empty() && first[0] != '-';
-    if (!isUnknown) return printUsage(app, error);
+    if (!isUnknown) return printUsage(app, error, {argv + 1, argv + argc});
     setCommandName("ortung");
-    fail("there is no subcommand '" + first + "'; see `ortung --help`");
+    fail("there is no subcommand '" + first + "'" + didYouMean(first, firstWords()) +
+         "; see `ortung --help`");
     return kWrongUsage;
   }
   return kWrongUsage;  // not reached: a command would have been found before

@@ -27,6 +27,7 @@ void addSim(Builder& build) {
       .option("--robot", a->robots,
               "Robot file (TOML) of a robot that wanders about; may be given again")
       .repeats();
+  build.group("Game");
   build
       .option(
           "--player", a->players,
@@ -44,14 +45,17 @@ void addSim(Builder& build) {
               "Processor time of a call after which a player is stopped [ms]; 0: unlimited")
       .within(0.0, 1e6)
       .showsDefault();
+  build.group("Course");
   build
       .option("--duration", a->duration,
               "Time to simulate [s]; default: the scene's, or until a signal")
       .within(0.0, 1e6);
+  build.group("Results");
   build.option("--record", a->record, "Write all readings of one robot as a record");
   build.option("--recorded", a->recorded, "Name of the robot to record; default: the first");
   build.option("--trace", a->trace, "Write the places of all bodies, 20 times a second, as CSV");
   build.flag("--digest", a->digest, "Print a hash of the simulation: equal for equal runs");
+  build.group("Course");
   build.option("--threads", a->threads, "Threads for the sensors; the result does not depend on it")
       .within(1, 256);
   build.option("--seed", a->seed, "Seed of all random numbers").showsDefault();
@@ -61,6 +65,7 @@ void addSim(Builder& build) {
       .within(0.1, 1000.0);
   build.flag("--no-noise", a->noNoise, "Sensors and odometry without noise");
   build.flag("--force", a->force, kForce);
+  build.group("Localization");
   build
       .option("--localize", a->localize,
               "With --listen: names of robots (NAME,NAME,... or all) that are localized from the "

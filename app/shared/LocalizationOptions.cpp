@@ -12,6 +12,7 @@ void addLocalization(Builder& build, LocalizationArguments& a, Localizes when) {
     robot.required();
     tables.required();
   }
+  const HelpGroup group(build, "Localization");
   build.option("--seed", a.seed, "Seed of all random numbers").showsDefault();
   build.option("--particles", a.particles, "Greatest number of samples; default: the robot file's")
       .within(1, 1e7);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/MapWorld.hpp"
 
 namespace ortung::app {
 namespace {
@@ -23,10 +24,8 @@ bool isInMap(const std::string& array, const Parameters& table) {
 std::string mendedWorld(const std::filesystem::path& file, const SimWorld& world,
                         const std::string& map) {
   std::string text = withoutTables(readTomlText(file), file.string(), isInMap);
-  // As importers of logs have it (gridToml of realsensors): a surface was found somewhere in a
-  // cell, so its middle is the best guess, by poses that were off, too.
-  text +=
-      fmt::format("\n[[grid]]\nmap = \"{}\"\nsurface_depth_cells = 0.5\nmap_error_m = 0.02\n", map);
+  text += fmt::format("\n[[grid]]\nmap = \"{}\"\nsurface_depth_cells = {}\nmap_error_m = {}\n", map,
+                      kMapSurfaceDepth, kMapError);
   // Posts with an identity are in the map now, but they stay landmarks.
   for (const Landmark& mark : fieldModelOf(world).landmarks)
     text += fmt::format("\n[[landmark]]\nkind = \"{}\"\nidentity = {}\nposition_m = [{}, {}, {}]\n",

@@ -3,6 +3,7 @@
 namespace ortung::app {
 
 void addDoor(Builder& build, ServingArguments& a) {
+  const HelpGroup group(build, "Serving and viewing");
   build.option("--listen", a.listen,
                "[ADDRESS:]PORT for clients; 0: a free port; see docs/protocol.md. ADDRESS: "
                "127.0.0.1, others need --token-file");
@@ -26,6 +27,7 @@ void addDoor(Builder& build, ServingArguments& a) {
 }
 
 void addRecording(Builder& build, ServingArguments& a) {
+  const HelpGroup group(build, "Serving and viewing");
   build.option(
       "--record-into", a.recordInto,
       "With --listen or --view: folder for the records of robots that clients begin and end "
@@ -33,6 +35,7 @@ void addRecording(Builder& build, ServingArguments& a) {
 }
 
 void addServing(Builder& build, ServingArguments& a) {
+  const HelpGroup group(build, "Serving and viewing");
   addDoor(build, a);
   build.option("--idle", a.idle, "Silence after which clients are disconnected [s]")
       .within(1.0, 1e6)

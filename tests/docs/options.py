@@ -30,8 +30,11 @@ class Program:
     @functools.cache
     def commands(self, *words):
         """Names of the commands below one, e.g. html below export."""
-        part = re.search(r"^Subcommands:\n((?: .*\n)+)", self.help(*words), re.MULTILINE)
-        return re.findall(r"^  (\S+)", part[1], re.MULTILINE) if part else []
+        return re.findall(r"^  ([a-z][\w-]*)(?= )", self.help(*words), re.MULTILINE) if self.has_commands(*words) else []
+
+    def has_commands(self, *words):
+        usage = re.search(r"^Usage: .*$", self.help(*words), re.MULTILINE)
+        return usage is not None and usage[0].endswith(" SUBCOMMAND")
 
     @functools.cache
     def options(self, *words):

@@ -17,8 +17,8 @@ import run  # noqa: E402
 
 HELP = """#!/bin/sh
 case "$*" in
-  --help) printf 'Options:\\n  -h,--help   Help\\n\\nSubcommands:\\n  learn   Learn\\n  export  Export\\n' ;;
-  "export --help") printf 'Options:\\n  -h,--help   Help\\n\\nSubcommands:\\n  html    Page\\n' ;;
+  --help) printf 'Usage: ortung [OPTIONS] SUBCOMMAND\\n\\nOptions:\\n  -h,--help   Help\\n\\nSubcommands:\\n  learn   Learn\\n  export  Export\\n' ;;
+  "export --help") printf 'Usage: ortung export [OPTIONS] SUBCOMMAND\\n\\nOptions:\\n  -h,--help   Help\\n\\nSubcommands:\\n  html    Page\\n' ;;
   "learn --help") printf 'Options:\\n  -h,--help   Help\\n  --out TEXT REQUIRED   File, see --nothing\\n' ;;
   "export html --help") printf 'Options:\\n  --page TEXT   Page\\n' ;;
   say*) shift; echo "$*" ;;

@@ -33,8 +33,8 @@ def commands(path=()):
     code, text, error = ortung(*path, "--help")
     assert code == 0, error
     found = {" ".join(path): sorted(set(re.findall(r"^  (?:-\w,)?(--[a-z][\w-]*)", text, re.MULTILINE)))}
-    below = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.MULTILINE)
-    for name in re.findall(r"^  ([a-z][\w-]*)", below[1] if below else "", re.MULTILINE):
+    has_commands = re.search(r"^Usage: .* SUBCOMMAND$", text, re.MULTILINE)
+    for name in re.findall(r"^  ([a-z][\w-]*) ", text, re.MULTILINE) if has_commands else []:
         found.update(commands((*path, name)))
     return found
 

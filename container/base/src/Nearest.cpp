@@ -45,7 +45,7 @@ std::string nearest(std::string_view word, std::span<const std::string> words) {
 
 std::string didYouMean(std::string_view word, std::span<const std::string> words) {
   const std::string meant = nearest(word, words);
-  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+  return meant.empty() ? "" : " (did you mean '" + meant + "'?)";
 }
 
 }  // namespace ortung

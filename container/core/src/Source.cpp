@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "ortung/base/FileKind.hpp"
+
 namespace ortung {
 namespace {
 
@@ -21,18 +23,56 @@ void Source::writeWorld(const std::filesystem::path&) const {
   throw std::runtime_error("these readings come without a map, so no world can be written");
 }
 
-SourceText parseSourceText(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const std::string kind = text.substr(0, colon);
-  const bool wellNamed =
-      !kind.empty() && kind.size() <= 64 && std::all_of(kind.begin(), kind.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-      });
-  if (colon == text.npos || !wellNamed) {
-    throw std::invalid_argument("source '" + text +
-                                "': expected KIND:PATH[?key=value&...], e.g. record:run.rec");
+namespace {
+
+/// Returns the kind of source that plays a file, as far as its content tells; "": none.
+std::string sourceOf(FileKind kind) {
+  switch (kind) {
+    case FileKind::kRecord:
+      return "record";
+    case FileKind::kMcap:
+      return "mcap";
+    case FileKind::kSqlite:
+    case FileKind::kRosBag:
+    case FileKind::kRosBagFolder:
+      return "bag";
+    case FileKind::kCarmenLog:
+      return "carmen";
+    default:
+      return "";
   }
-  SourceText source{kind, text.substr(colon + 1), {}};
+}
+
+/// Whether a text begins with KIND:.
+bool namesKind(const std::string& text) {
+  const std::string kind = text.substr(0, text.find(':'));
+  return kind.size() < text.size() && !kind.empty() && kind.size() <= 64 &&
+         std::all_of(
+             kind.begin(), kind.end(),
+             [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+             });
+}
+
+/// Returns KIND:PATH for a text that is the path of a file which tells its kind itself.
+std::string withKind(const std::string& text) {
+  if (namesKind(text)) return text;
+  const std::string kind = sourceOf(kindOfFile(text.substr(0, text.find('?'))));
+  return kind.empty() ? text : kind + ":" + text;
+}
+
+}  // namespace
+
+SourceText parseSourceText(const std::string& given) {
+  const std::string text = withKind(given);
+  if (!namesKind(text)) {
+    throw std::invalid_argument("source '" + text +
+                                "': expected KIND:PATH[?key=value&...], e.g. record:run.rec, or a "
+                                "record, bag or log that says what it is" +
+                                whatItIs(text));
+  }
+  const std::size_t colon = text.find(':');
+  SourceText source{text.substr(0, colon), text.substr(colon + 1), {}};
   const std::size_t mark = source.path.find('?');
   if (mark == source.path.npos) return source;
   std::string options = source.path.substr(mark + 1);

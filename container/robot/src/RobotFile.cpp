@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ortung/base/FileKind.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/PoseData.hpp"
@@ -52,7 +53,11 @@ RobotConfig readRobot(const Parameters& file) {
   return robot;
 }
 
-RobotConfig readRobot(const std::filesystem::path& file) { return readRobot(readToml(file)); }
+RobotConfig readRobot(const std::filesystem::path& file) {
+  const std::string other = whatItIs(file, {FileKind::kRobot, FileKind::kMotion});
+  if (!other.empty()) throw ConfigError(file.string() + ": is no robot file" + other);
+  return readRobot(readToml(file));
+}
 
 std::vector<Device> fillContainer(SensorContainer& container, const RobotConfig& robot,
                                   PluginFactory& factory) {

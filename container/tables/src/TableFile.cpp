@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "Zip.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/base/InputFile.hpp"
 
 namespace ortung {
@@ -127,7 +128,8 @@ TableFile::TableFile(const std::filesystem::path& file) : impl_(std::make_unique
   impl_->map();
   std::vector<zip::Entry> entries;
   if (const std::string why = zip::read(impl_->bytes, entries); !why.empty()) {
-    throw TableError(file.string() + ": is torn or no table file: " + why);
+    throw TableError(file.string() + ": is torn or no table file: " + why +
+                     whatItIs(file, {FileKind::kTables}));
   }
   for (const zip::Entry& entry : entries) {
     if (!entry.name.ends_with(".npy")) {

@@ -1,6 +1,7 @@
 #include "ortung/run/Robot.hpp"
 
 #include "CheckedMotion.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/robot/TomlFile.hpp"
 
 namespace ortung {
@@ -44,6 +45,8 @@ std::unique_ptr<MotionModel> makeMotion(const Parameters& motion, PluginFactory&
 }
 
 Parameters readMotionFile(const std::filesystem::path& file) {
+  const std::string other = whatItIs(file, {FileKind::kRobot, FileKind::kMotion});
+  if (!other.empty()) throw ConfigError(file.string() + ": is no file with [motion]" + other);
   const Parameters parameters = readToml(file);
   if (!parameters.has("motion")) {
     throw ConfigError(file.string() +

@@ -268,15 +268,27 @@ class ModelledWorld final : public SimWorld {
 
 }  // namespace
 
-std::unique_ptr<SimWorld> readWorld(const std::filesystem::path& file) {
-  WorldModel model = readWorldModel(file);
+namespace {
+
+std::unique_ptr<SimWorld> build(WorldModel model, const std::string& where) {
   try {
     return std::make_unique<ModelledWorld>(std::make_shared<const Ground>(std::move(model)));
   } catch (const std::runtime_error& error) {
-    throw ConfigError(file.string() + ": " + error.what());
+    throw ConfigError(where + ": " + error.what());
   } catch (const std::logic_error& error) {  // too many walls
-    throw ConfigError(file.string() + ": " + error.what());
+    throw ConfigError(where + ": " + error.what());
   }
+}
+
+}  // namespace
+
+std::unique_ptr<SimWorld> readWorld(const std::filesystem::path& file) {
+  return build(readWorldModel(file), file.string());
+}
+
+std::unique_ptr<SimWorld> readWorld(const Parameters& toml, const std::string& name,
+                                    const std::filesystem::path& folder) {
+  return build(readWorldModel(toml, name, folder), toml.where());
 }
 
 }  // namespace ortung

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ortung/sim/OpenGl.hpp"
+
 namespace ortung {
 namespace {
 
@@ -206,6 +208,13 @@ std::unique_ptr<GlContext> GlContext::make() {
   throw std::runtime_error(
       "no picture can be drawn here, since there is no OpenGL 3.3 without a window (" + why +
       "): install libosmesa6, or libegl1 and libegl-mesa0");
+}
+
+std::string openGlRenderer() {
+  const std::unique_ptr<GlContext> context = GlContext::make();
+  const GlContext::Current current(*context);
+  const auto* name = reinterpret_cast<const char*>(context->gl().GetString(GL_RENDERER));
+  return std::string(context->backEnd()) + ": " + (name == nullptr ? "of no name" : name);
 }
 
 }  // namespace ortung

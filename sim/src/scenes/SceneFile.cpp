@@ -1,8 +1,10 @@
 #include <algorithm>
 
+#include "GridMap.hpp"
 #include "PrimitiveFile.hpp"
 #include "ReadTables.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Scene.hpp"
 
@@ -93,8 +95,9 @@ ScenePlacement readPlacement(const Parameters& table) {
 }  // namespace
 
 bool Scene::isScene(const std::filesystem::path& file) {
-  const Parameters toml = readToml(file);
-  return toml.has("scene");
+  const FileKind kind = kindOfFile(file);
+  if (kind != FileKind::kUnknown || isGridMap(file)) return kind == FileKind::kScene;
+  return readToml(file).has("scene");
 }
 
 Scene Scene::open(const std::filesystem::path& file) {
@@ -105,8 +108,10 @@ Scene Scene::open(const std::filesystem::path& file) {
 }
 
 Scene Scene::read(const std::filesystem::path& file) {
-  const Parameters toml = readToml(file);
-  const std::filesystem::path folder = file.parent_path();
+  return read(readToml(file), file.parent_path());
+}
+
+Scene Scene::read(const Parameters& toml, const std::filesystem::path& folder) {
   Scene scene;
   const Parameters about = toml.table("scene");
   scene.world = readPath(about, "world", folder);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ortung/base/FileKind.hpp"
 #include "ortung/tables/DistanceTransform.hpp"
 
 namespace ortung {
@@ -20,6 +21,20 @@ void checkBox(const std::filesystem::path& file, const Box2& box) {
   const bool isNear = box.xLow >= -kFarthest && box.yLow >= -kFarthest && box.xHigh <= kFarthest &&
                       box.yHigh <= kFarthest;
   if (!isNear) throw MapError(file.string() + ": the map reaches beyond 10 km from the origin");
+}
+
+using Reader = GridMap (*)(const std::filesystem::path&);
+
+/// Returns what reads a map, by the ending of its name, or by its content; nullptr: nothing does.
+Reader readerOf(const std::filesystem::path& file) {
+  const auto endsIn = [name = file.filename().string()](const std::string& end) {
+    return name.size() > end.size() && name.ends_with(end);
+  };
+  if (endsIn(".yaml") || endsIn(".yml")) return readMapServer;
+  if (endsIn(".gridmap") || endsIn(".gridmap.gz")) return readMrptGridMap;
+  for (const char* end : {".map", ".cmf", ".carmen", ".map.gz", ".cmf.gz", ".carmen.gz"})
+    if (endsIn(end)) return readCarmenMap;
+  return kindOfFile(file) == FileKind::kMapServer ? readMapServer : nullptr;
 }
 
 }  // namespace
@@ -81,18 +96,15 @@ std::vector<float> distanceToOccupied(const GridMap& map) {
   return result;
 }
 
+bool isGridMap(const std::filesystem::path& file) { return readerOf(file) != nullptr; }
+
 GridMap readGridMap(const std::filesystem::path& file) {
-  const auto endsIn = [name = file.filename().string()](const std::string& end) {
-    return name.size() > end.size() && name.ends_with(end);
-  };
-  if (endsIn(".yaml") || endsIn(".yml")) return readMapServer(file);
-  if (endsIn(".gridmap") || endsIn(".gridmap.gz")) return readMrptGridMap(file);
-  for (const char* end : {".map", ".cmf", ".carmen", ".map.gz", ".cmf.gz", ".carmen.gz"})
-    if (endsIn(end)) return readCarmenMap(file);
+  if (const auto read = readerOf(file)) return read(file);
   throw MapError(file.string() +
                  ": is not a known kind of map, expected a map_server map (.yaml, .yml), "
                  "a CARMEN map (.map, .cmf, .carmen, also with .gz) or an MRPT grid map (.gridmap, "
-                 ".gridmap.gz)");
+                 ".gridmap.gz)" +
+                 whatItIs(file));
 }
 
 }  // namespace ortung

@@ -71,6 +71,8 @@ struct GridBody {
 /// Reads an occupancy grid: map_server YAML (.yaml, .yml), CARMEN map (.map, .cmf, .carmen, also
 /// with .gz) or MRPT grid map (.gridmap, .gridmap.gz). @throws MapError
 GridMap readGridMap(const std::filesystem::path& file);
+/// Returns whether a file is such a map, by the ending of its name or its content.
+ORTUNG_API bool isGridMap(const std::filesystem::path& file);
 
 // The readers of the single formats. All throw MapError.
 GridMap readMapServer(const std::filesystem::path& yaml);

@@ -7,7 +7,9 @@
 #include "ReadTables.hpp"
 #include "WorldModel.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/robot/TomlFile.hpp"
+#include "ortung/sim/MapWorld.hpp"
 
 namespace ortung {
 namespace {
@@ -159,13 +161,33 @@ void addLandmarks(const Parameters& file, WorldModel& world) {
   });
 }
 
+/// Returns what a world file would say that names nothing but a map.
+Parameters worldOf(const std::filesystem::path& map) {
+  Parameters grid(map.string());
+  grid.set("map", map.filename().string());
+  grid.set("surface_depth_cells", kMapSurfaceDepth);
+  grid.set("map_error_m", kMapError);
+  Parameters world(map.string());
+  world.set("grid", Parameters::Node{Parameters::List{{grid}}});
+  return world;
+}
+
 }  // namespace
 
 WorldModel readWorldModel(const std::filesystem::path& file) {
-  const Parameters toml = readToml(file);
+  const std::filesystem::path folder = file.parent_path();
+  const std::string name = file.stem().string();
+  if (isGridMap(file)) return readWorldModel(worldOf(file), name, folder);
+  const std::string other = whatItIs(file, {FileKind::kWorld, FileKind::kMotion});
+  if (!other.empty()) throw ConfigError(file.string() + ": is no world file" + other);
+  return readWorldModel(readToml(file), name, folder);
+}
+
+WorldModel readWorldModel(const Parameters& toml, const std::string& name,
+                          const std::filesystem::path& folder) {
   const Parameters about = toml.table("world");
   WorldModel world;
-  world.name = about.textOr("name", file.stem().string());
+  world.name = about.textOr("name", name);
   checkPrintable(about, "name", world.name);
   const std::array<std::pair<const char*, Primitive::Shape>, 3> shapes{
       {{"rectangle", Primitive::Shape::kRectangle},
@@ -178,11 +200,10 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
   for (const auto& table : readTables(toml, "landmark", kMaxPrimitives))
     building.floorOf(table).landmarks.push_back(readLandmark(table));
   const auto grids = readTables(toml, "grid", kMaxGrids);
-  for (const auto& table : grids)
-    building.floorOf(table).grids.push_back(readGrid(table, file.parent_path()));
+  for (const auto& table : grids) building.floorOf(table).grids.push_back(readGrid(table, folder));
   for (std::size_t i = 0; i < building.tables().size(); ++i) {
     const Parameters& table = building.tables()[i];
-    if (table.has("map")) building.floor(i).grids.push_back(readGrid(table, file.parent_path()));
+    if (table.has("map")) building.floor(i).grids.push_back(readGrid(table, folder));
   }
   building.moveInto(world);
   const auto fixed = std::stable_partition(world.primitives.begin(), world.primitives.end(),
@@ -191,7 +212,7 @@ WorldModel readWorldModel(const std::filesystem::path& file) {
                         std::make_move_iterator(world.primitives.end()));
   world.primitives.erase(fixed, world.primitives.end());
   if (world.movables.size() > kMaxMovables)
-    throw ConfigError(file.string() + ": " + std::to_string(world.movables.size()) +
+    throw ConfigError(toml.where() + ": " + std::to_string(world.movables.size()) +
                       " primitives are movable, expected at most 256");
   world.physics = PhysicsConfig::read(toml.table("physics"));
   addLandmarks(toml, world);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "GridMap.hpp"
+#include "ortung/base/Parameters.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim_api/World.hpp"
@@ -26,8 +27,11 @@ struct WorldModel {
   std::vector<Box2> floorBounds;    ///< bounds of each floor, which robots can't leave
 };
 
-/// Reads a world file and the maps that it names. @throws ConfigError
+/// Reads a world file and the maps that it names, or a grid map as a world. @throws ConfigError
 WorldModel readWorldModel(const std::filesystem::path& file);
+/// Reads a world file that was parsed before. @param folder folder of its maps @throws ConfigError
+WorldModel readWorldModel(const Parameters& toml, const std::string& name,
+                          const std::filesystem::path& folder);
 
 /// Returns the lines painted on the floor, as sensors see them.
 std::vector<FieldLine> linesOf(const WorldModel& world);

@@ -45,7 +45,7 @@ struct Driver : testing::Test {
     const std::jthread other([&](const std::stop_token& stop) {
       std::string asked;
       while (!stop.stop_requested() && asked.find('\n') == asked.npos) end.read(asked);
-      EXPECT_EQ(asked.substr(0, asked.find('\n') + 1), encode(Question{}));
+      EXPECT_EQ(asked.substr(0, asked.find('\n') + 1), encode(base_lines::Question{}));
       end.write(answer);
     });
     driver->open();

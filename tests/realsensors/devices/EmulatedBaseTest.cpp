@@ -51,9 +51,9 @@ struct Base : testing::Test {
 
 TEST_F(Base, AnswersWhatItIsAndMeasuresFromThenOn) {
   EXPECT_FALSE(base.isMeasuring());
-  base.receive("noise\r\n" + encode(Question{}).substr(0, 4), 0);
+  base.receive("noise\r\n" + encode(base_lines::Question{}).substr(0, 4), 0);
   EXPECT_FALSE(base.isMeasuring());
-  base.receive(encode(Question{}).substr(4), 0);
+  base.receive(encode(base_lines::Question{}).substr(4), 0);
   const auto told = sent(base, 1'000'000);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(std::get<Identity>(told[0]).version, 1u);

@@ -62,6 +62,9 @@ struct Scene {
   ORTUNG_API static bool isScene(const std::filesystem::path& file);
   /// Reads a scene file. @throws ConfigError
   ORTUNG_API static Scene read(const std::filesystem::path& file);
+  /// Reads a scene file that was parsed before. @param folder folder of the files that it names
+  /// @throws ConfigError
+  ORTUNG_API static Scene read(const Parameters& toml, const std::filesystem::path& folder);
   /// Reads a scene file, or a world file as a scene without robots. @throws ConfigError
   ORTUNG_API static Scene open(const std::filesystem::path& file);
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/Parameters.hpp"
 #include "ortung/sim/PhysicsConfig.hpp"
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim/Solids.hpp"
@@ -67,7 +68,14 @@ class ORTUNG_API SimWorld : public World {
   virtual void removeBody(RobotNumber body) = 0;
 };
 
-/// Reads a world file (TOML) and the maps that it names. @throws ConfigError
+/// Reads a world file (TOML) and the maps that it names, or a grid map as a world of its own, with
+/// what MapWorld.hpp says. @throws ConfigError
 ORTUNG_API std::unique_ptr<SimWorld> readWorld(const std::filesystem::path& file);
+/// Reads a world file that was parsed before. @param name its name if it says none
+/// @param folder folder of the maps that it names @throws ConfigError
+ORTUNG_API std::unique_ptr<SimWorld> readWorld(const Parameters& toml, const std::string& name,
+                                               const std::filesystem::path& folder);
+/// Returns whether a file is a grid map of one of the kinds that can be a world.
+ORTUNG_API bool isGridMap(const std::filesystem::path& file);
 
 }  // namespace ortung

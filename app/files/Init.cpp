@@ -1,0 +1,136 @@
+#include "Init.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "Console.hpp"
+#include "Outputs.hpp"
+#include "SurveyedPlugins.hpp"
+#include "Templates.hpp"
+
+namespace ortung::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string replaced(std::string text, const std::string& sign, const std::string& by) {
+  for (std::size_t at = text.find(sign); at != text.npos; at = text.find(sign, at + by.size()))
+    text.replace(at, sign.size(), by);
+  return text;
+}
+
+/// Returns a name that is valid wherever files want one.
+std::string wordOf(const fs::path& file) {
+  std::string word = file.stem().string().substr(0, 64);
+  std::replace_if(
+      word.begin(), word.end(),
+      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_'; }, '_');
+  return word.empty() ? "mine" : word;
+}
+
+/// A text as a TOML string. @throws UsageError for control characters, which no file name needs
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20)
+      throw UsageError("--map: the name has control characters");
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+void write(const fs::path& file, const std::string& text, bool force) {
+  std::error_code error;
+  if (!force && fs::exists(file, error))
+    throw std::runtime_error(file.string() + ": is there already; --force overwrites it");
+  writeFile(file, text);
+  fmt::print("{}\n", printable(file.string()));
+}
+
+/// Returns a line for a key: one that is required with some value, another one commented out with
+/// its default.
+std::string keyLine(const std::string& key, const KeySurvey::Key& entry) {
+  if (!entry.question) return "";
+  std::string comment = textOf(*entry.question);
+  if (entry.isRequired) comment += "; required";
+  if (!entry.isRequired && !entry.question->fallback) comment += "; without it another key holds";
+  return fmt::format("{:<33} # {}\n",
+                     (entry.isRequired ? "" : "#") + key + " = " + exampleOf(*entry.question),
+                     comment);
+}
+
+/// Returns a table in one line.
+std::string inlineTable(const KeySurvey& survey) {
+  std::string text;
+  for (const auto& [key, entry] : survey.keys)
+    if (entry.question)
+      text += (text.empty() ? "" : ", ") + key + " = " + exampleOf(*entry.question);
+  return "{ " + text + " }";
+}
+
+std::string sensorText(PluginFactory& factory, const std::string& name) {
+  const KeySurvey survey = surveyPlugin(factory, PluginKind::kSensor, name);
+  std::string text = fmt::format("\n[[sensor]]\nplugin = {}\n", quoted(name));
+  for (const auto& [key, entry] : survey.keys) {
+    if (key == "plugin") continue;
+    const auto below = survey.tables.find(key);
+    const bool isTable =
+        below != survey.tables.end() && entry.question->kind == Question::Kind::kTable;
+    text +=
+        isTable ? fmt::format("#{} = {}\n", key, inlineTable(below->second)) : keyLine(key, entry);
+  }
+  return text;
+}
+
+}  // namespace
+
+int runInitRobot(const InitRobotArguments& arguments) {
+  std::string text = replaced(templates::kRobot, "@NAME@", wordOf(arguments.out));
+  if (arguments.sensors.empty()) text += templates::kScanner;
+  PluginFactory factory(PluginFactory::standardFolders());
+  for (const std::string& sensor : arguments.sensors) text += sensorText(factory, sensor);
+  write(arguments.out, text, arguments.force);
+  return 0;
+}
+
+int runInitWorld(const InitWorldArguments& arguments) {
+  const std::string name = wordOf(arguments.out);
+  if (arguments.map.empty()) {
+    write(arguments.out, replaced(templates::kWorld, "@NAME@", name), arguments.force);
+    return 0;
+  }
+  // The map is named as seen from the world file.
+  const fs::path folder = arguments.out.parent_path();
+  const fs::path map = arguments.map.is_absolute()
+                           ? arguments.map
+                           : arguments.map.lexically_relative(folder.empty() ? "." : folder);
+  const std::string text =
+      replaced(replaced(templates::kMapWorld, "@NAME@", name), "@MAP@", quoted(map.string()));
+  write(arguments.out, text, arguments.force);
+  return 0;
+}
+
+int runInitSensor(const InitSensorArguments& arguments) {
+  const std::string& name = arguments.name;
+  const bool isWord =
+      !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+      });
+  if (!isWord) throw UsageError("name is '" + name + "', expected 1 to 64 of a-z, 0-9, _");
+  const fs::path folder = arguments.out.empty() ? fs::path(name) : arguments.out;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": can't be made: " + error.message());
+  const auto put = [&](const std::string& file, const std::string& text) {
+    write(folder / file, replaced(text, "@NAME@", name), arguments.force);
+  };
+  put("CMakeLists.txt", templates::kSensorBuild);
+  put(name + ".cpp", templates::kSensor);
+  put(name + ".toml", templates::kSensorRobot);
+  return 0;
+}
+
+}  // namespace ortung::app

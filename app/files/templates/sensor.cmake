@@ -1,0 +1,7 @@
+cmake_minimum_required(VERSION 3.25)
+project(@NAME@ CXX)
+find_package(ortung 0.2 REQUIRED COMPONENTS robot sim_api)
+add_library(ortung_@NAME@_device MODULE @NAME@.cpp)
+set_target_properties(ortung_@NAME@_device PROPERTIES PREFIX "")
+target_compile_features(ortung_@NAME@_device PRIVATE cxx_std_20)
+target_link_libraries(ortung_@NAME@_device PRIVATE ortung::sim_api ortung::robot)
