@@ -36,6 +36,8 @@ test=(
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev
   # pictures of scenes, and the test that looks at them
   python3-pil
+  # tests of the schemas of files
+  python3-jsonschema
   # the Python package, its wheel, and what looks at its stubs
   python3-dev pybind11-dev python3-build python3-wheel python3-pip python3-venv mypy
   # robots of ROS 2: DDS, and for the tests another implementation of it with a generator of its own, and a dissector

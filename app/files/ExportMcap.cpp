@@ -8,8 +8,11 @@
 
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "Localizing.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "PublishedRecord.hpp"
+#include "ScratchFolder.hpp"
 #include "SourceArguments.hpp"
 #include "WorldGrid.hpp"
 #include "ortung/base/NewFile.hpp"
@@ -162,7 +165,37 @@ bool copyMoments(Source& source, const ExportMcapArguments& arguments, const std
 
 }  // namespace
 
+namespace {
+
+/// Localizes, and returns the record of the readings and the results.
+std::filesystem::path localized(const ExportMcapArguments& arguments,
+                                const std::filesystem::path& folder) {
+  LocalizationArguments localization;
+  localization.source = arguments.source;
+  localization.robot = arguments.robot;
+  localization.tables = arguments.tables;
+  localization.start = arguments.start;
+  localization.seed = arguments.seed;
+  localization.publish = true;
+  const auto run = openLocalization(localization);
+  PublishedRecord record(folder / "localized.rec", *run);
+  Progress progress("localizing", arguments.progress);
+  std::size_t updates = 0;
+  while (nextStep(*run, localization)) {
+    ++updates;
+    record.writePublished();
+    progress.update(run->feeder().progress());
+  }
+  requireUpdates(updates, localization);
+  record.commit();
+  return folder / "localized.rec";
+}
+
+}  // namespace
+
 int runExportMcap(const ExportMcapArguments& arguments) {
+  if (arguments.localizes && arguments.tables.empty())
+    throw UsageError("--localize needs --tables");
   if (!arguments.world.empty() && !arguments.tables.empty())
     throw UsageError("--world and --tables are both given; the map comes from one of them");
   Outputs outputs(arguments.force);
@@ -171,7 +204,11 @@ int runExportMcap(const ExportMcapArguments& arguments) {
     outputs.reads(input);
   outputs.writes("--out", arguments.out, OutputKind::kMcap);
   const std::unique_ptr<Robot> robot = openRobot(arguments.robot);
-  const auto source = openSourceArgument(arguments.source, arguments.robot, robot->factory);
+  const ScratchFolder scratch;
+  const std::string played = arguments.localizes
+                                 ? "record:" + localized(arguments, scratch.path()).string()
+                                 : arguments.source;
+  const auto source = openSourceArgument(played, arguments.robot, robot->factory);
   ros2::RobotTopics topics(robot->container, {mapFrameOf(arguments.mapFrame), ""});
   BagFile file(outputs.ready(arguments.out), topics);
   if (!copyMoments(*source, arguments, readTomlText(arguments.robot), topics, file))

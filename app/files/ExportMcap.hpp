@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,9 @@ struct ExportMcapArguments {
   double cell = 0.05;             ///< size of a cell of a world's map [m]
   double height = 0.3;            ///< height of the plane that is drawn [m]
   std::string mapFrame = "best";  ///< pose of odometry in the map: "best", "truth", "none"
+  bool localizes = false;         ///< whether to localize with the tables first
+  std::string start = "global";   ///< start of that localization's belief
+  std::uint64_t seed = 1;         ///< seed of that localization
   bool force = false;
   bool progress = false;
 };

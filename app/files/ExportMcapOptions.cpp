@@ -27,6 +27,12 @@ void addMcap(Builder& build) {
               "has, else the ground truth), truth, or none, for who localizes the robot himself")
       .oneOf({"best", "truth", "none"})
       .showsDefault();
+  build.group("Localization");
+  build.flag("--localize", a->localizes,
+             "Localize with --tables first: estimates, samples and status are in the file, too");
+  build.option("--start", a->start, "global, truth (the first ground truth) or x,y,theta_deg")
+      .showsDefault();
+  build.option("--seed", a->seed, "Seed of all random numbers").showsDefault();
   build.flag("--force", a->force, kForce);
   build.flag("--progress", a->progress, kProgress);
 }

@@ -79,8 +79,9 @@ std::string sensorText(PluginFactory& factory, const std::string& name) {
     const auto below = survey.tables.find(key);
     const bool isTable =
         below != survey.tables.end() && entry.question->kind == Question::Kind::kTable;
-    text +=
-        isTable ? fmt::format("#{} = {}\n", key, inlineTable(below->second)) : keyLine(key, entry);
+    const char* mark = entry.isRequired ? "" : "#";
+    text += isTable ? fmt::format("{}{} = {}\n", mark, key, inlineTable(below->second))
+                    : keyLine(key, entry);
   }
   return text;
 }
@@ -89,9 +90,12 @@ std::string sensorText(PluginFactory& factory, const std::string& name) {
 
 int runInitRobot(const InitRobotArguments& arguments) {
   std::string text = replaced(templates::kRobot, "@NAME@", wordOf(arguments.out));
-  if (arguments.sensors.empty()) text += templates::kScanner;
+  const auto& sensors = arguments.sensors;
+  if (std::find(sensors.begin(), sensors.end(), "odometry") == sensors.end())
+    text += templates::kOdometry;
+  if (sensors.empty()) text += templates::kScanner;
   PluginFactory factory(PluginFactory::standardFolders());
-  for (const std::string& sensor : arguments.sensors) text += sensorText(factory, sensor);
+  for (const std::string& sensor : sensors) text += sensorText(factory, sensor);
   write(arguments.out, text, arguments.force);
   return 0;
 }

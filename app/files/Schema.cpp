@@ -76,8 +76,10 @@ Parameters surveyed(const fs::path& file) {
 }
 
 /// Reads a robot as the simulator does and as a localization does.
-void readWhole(const Parameters& toml) {
+void readWhole(const Parameters& toml, PluginFactory& factory) {
   const RobotConfig robot = readRobot(toml);
+  SensorContainer container;
+  fillContainer(container, robot, factory);
   MclConfig::read(robot.mcl);
   robot.motion.textOr("plugin", "odometry");
   robot.drive.textOr("plugin", "differential");
@@ -86,16 +88,26 @@ void readWhole(const Parameters& toml) {
 
 KeySurvey surveyRobots() {
   KeySurvey all;
+  PluginFactory factory(PluginFactory::standardFolders());
   for (const fs::path& file : shippedFiles("robots", "pioneer.toml")) {
     const Parameters toml = surveyed(file);
-    readWhole(toml);
+    readWhole(toml, factory);
     all.addTables(surveyOf(toml));
   }
   // Its plugins' keys are those that the plugins themselves read.
-  all.tables["sensor"].tables.clear();  // [device], whose readers are on real robots
-  all.tables["sensor"].variants = surveyPlugins(PluginKind::kSensor);
-  all.tables["drive"].variants = surveyPlugins(PluginKind::kDrive);
-  all.tables["motion"].variants = surveyPlugins(PluginKind::kMotion);
+  // What [device] holds is read on real robots alone.
+  KeySurvey& sensors = all.tables["sensor"];
+  sensors.tables.erase("device");
+  // Of all sensors alike only these are read; the others are of their plugins.
+  std::erase_if(sensors.keys,
+                [](const auto& one) { return one.first != "plugin" && one.first != "device"; });
+  for (auto& [name, variant] : sensors.variants) variant.tables.erase("device");
+  const std::pair<const char*, PluginKind> plugins[] = {{"sensor", PluginKind::kSensor},
+                                                        {"drive", PluginKind::kDrive},
+                                                        {"motion", PluginKind::kMotion}};
+  for (const auto& [table, kind] : plugins)
+    for (const auto& [name, survey] : surveyPlugins(kind))
+      all.tables[table].variants[name].addReader(survey);
   return all;
 }
 
@@ -122,6 +134,11 @@ KeySurvey surveyScenes() {
     const Parameters toml = surveyed(file);
     Scene::read(toml, file.parent_path());
     all.addTables(surveyOf(toml));
+  }
+  // What [options] holds is read by the plugins.
+  for (const char* table : {"player", "referee"}) {
+    all.tables[table].tables.erase("options");
+    for (auto& [name, variant] : all.tables[table].variants) variant.tables.erase("options");
   }
   return all;
 }
@@ -187,7 +204,7 @@ Json properties(const KeySurvey& survey) {
 Json required(const KeySurvey& survey) {
   Json keys = Json::array();
   for (const auto& [key, entry] : survey.keys)
-    if (entry.isRequired) keys.push_back(key);
+    if (entry.isRequired && key != "plugin") keys.push_back(key);
   return keys;
 }
 
@@ -211,7 +228,10 @@ Json schemaOfPlugins(const KeySurvey& survey) {
     if (name != usual) condition["required"] = {"plugin"};
     cases.push_back({{"if", condition}, {"then", then}});
   }
-  return {{"type", "object"}, {"properties", {{"plugin", {{"enum", names}}}}}, {"allOf", cases}};
+  Json schema = {
+      {"type", "object"}, {"properties", {{"plugin", {{"enum", names}}}}}, {"allOf", cases}};
+  if (usual.empty()) schema["required"] = {"plugin"};
+  return schema;
 }
 
 Json schemaOf(const KeySurvey& survey) {

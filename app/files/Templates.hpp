@@ -5,6 +5,7 @@
 namespace ortung::app::templates {
 
 extern const char* const kRobot;
+extern const char* const kOdometry;
 extern const char* const kScanner;
 extern const char* const kWorld;
 extern const char* const kMapWorld;

@@ -68,7 +68,7 @@ void addEval(Builder& build) {
       .within(1e-6, 1e3);
   build.shard(a->shard, a->job);
   build.footer([example] {
-    return "Faults: WHAT is odometry, readings (all others) or a feature's name; times in seconds "
+    return "Faults: WHAT is odometry, readings (all others) or a feature's name; times in seconds\n"
            "since the first reading:\n" +
            faultHelp() + "Example:\n  " + example +
            " --fault odometry=scale:1.2 --fault readings=crowd@20-50";

@@ -14,6 +14,7 @@
 #include "Localizing.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
+#include "PublishedRecord.hpp"
 #include "Rescue.hpp"
 #include "RobotSettings.hpp"
 #include "SourceArguments.hpp"
@@ -129,8 +130,13 @@ class LocalizeRun {
         belief_(arguments.belief, localization),
         output_(outputs, arguments, localization.source().isLive(),
                 localization.robot().tables.region.building),
-        rescue_([this] { output_.commit(); }) {
+        rescue_([this] {
+          output_.commit();
+          if (record_) record_->commit();
+        }) {
     if (arguments.rate) times_.emplace(*arguments.rate);
+    if (!arguments.record.empty())
+      record_ = std::make_unique<PublishedRecord>(outputs.ready(arguments.record), localization);
     if (arguments.truth.empty()) return;
     truth_.emplace(outputs.ready(arguments.truth));
     truth_->write(kTumHeader);
@@ -145,6 +151,7 @@ class LocalizeRun {
       if (!warned_ && localization_.feeder().seconds() > kPatience)
         warned_ = warnWithoutOdometry(localization_, arguments_.localization);
       if (!times_) write(step->estimate);
+      if (record_) record_->writePublished();
       belief_.saveNowAndThen();
       if (!arguments_.out.empty()) progress.update(localization_.feeder().progress());
     }
@@ -158,6 +165,7 @@ class LocalizeRun {
       const auto held = rescue_.hold();
       output_.commit();
       if (truth_) truth_->commit();
+      if (record_) record_->commit();
     }
     belief_.save();
   }
@@ -191,8 +199,9 @@ class LocalizeRun {
   KeptBelief belief_;
   PoseOutput output_;
   Rescue rescue_;
-  std::optional<NewFile> truth_;    ///< ground truth of the source, if it is wanted
-  std::optional<EvenTimes> times_;  ///< even times; nothing: a pose for each update
+  std::optional<NewFile> truth_;             ///< ground truth of the source, if it is wanted
+  std::unique_ptr<PublishedRecord> record_;  ///< readings and results, if they are wanted
+  std::optional<EvenTimes> times_;           ///< even times; nothing: a pose for each update
   std::optional<Timestamp> weighed_;
   std::size_t updates_ = 0;
   bool warned_ = false;
@@ -207,7 +216,12 @@ int runLocalize(const LocalizeArguments& arguments) {
   outputs.writes("--out", arguments.out, kindOf(formatOf(arguments)));
   outputs.writes("--truth", arguments.truth, OutputKind::kPosesTum);
   outputs.writes("--belief", arguments.belief, OutputKind::kBelief);
-  const std::unique_ptr<Localization> localization = openLocalization(arguments.localization);
+  outputs.writes("--record", arguments.record, OutputKind::kRecord);
+  LocalizationArguments wanted = arguments.localization;
+  wanted.publish = !arguments.record.empty();
+  if (wanted.publish && wanted.filter == "grid")
+    throw UsageError("--record needs --filter mcl: the grid filter publishes nothing");
+  const std::unique_ptr<Localization> localization = openLocalization(wanted);
   LocalizeRun run(arguments, outputs, *localization);
   run.toTheEnd();
   run.finish();

@@ -32,6 +32,9 @@ void addLocalize(Builder& build) {
       .oneOf({"text", "json", "tum"})
       .showsDefault();
   build.option("--truth", a->truth, "Also write the source's ground truth, in the format tum");
+  build.option("--record", a->record,
+               "Also write all readings with MCL's results as a record, e.g. for `ortung view` and "
+               "`ortung export mcap`");
   build.option("--belief", a->belief,
                "Begin with the belief in this file, if it exists, in place of --start; save the "
                "belief there at the end and, for a live source, every 10 s");

@@ -11,6 +11,7 @@
 #include "Console.hpp"
 #include "Localizing.hpp"
 #include "Progress.hpp"
+#include "PublishedRecord.hpp"
 #include "SourceArguments.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -41,13 +42,11 @@ class LocalizedRecord {
  public:
   LocalizedRecord(const LocalizationArguments& arguments, const std::filesystem::path& file)
       : arguments_(arguments), localization_(openLocalization(arguments)) {
-    RecordWriter record(file, notesOf(localization_->source(), localization_->container()));
-    localization_->wantSamples(true);
-    localization_->feeder().recordInto(record);
+    PublishedRecord record(file, *localization_);
     Progress progress("localizing " + arguments.source, arguments.progress);
     while (unlessInterrupted(localization_->source(), [&] { return localization_->advance(); })) {
       localization_->update();
-      writePublished(record);
+      record.writePublished();
       progress.update(localization_->feeder().progress());
     }
     record.commit();
@@ -55,24 +54,8 @@ class LocalizedRecord {
   std::vector<ServedFeature> features() const { return servedFeatures(localization_->container()); }
 
  private:
-  void writePublished(RecordWriter& record) {
-    const Timestamp now = localization_->feeder().stamp();
-    const SensorContainer& container = localization_->container();
-    const auto all = container.all();
-    seen_.resize(all.size(), 0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const SensorData& data = *all[i];
-      if (data.id().model != "mcl" || data.sequence() == seen_[i]) continue;
-      seen_[i] = data.sequence();
-      const std::span<const std::uint32_t> words = data.getData();
-      record.write({now, data.id(), {words.begin(), words.end()}});
-    }
-    record.endMoment();
-  }
-
   LocalizationArguments arguments_;
   std::unique_ptr<Localization> localization_;
-  std::vector<std::uint64_t> seen_;  ///< sequence number last written of each feature
 };
 
 /// Returns a record of a source's readings; the source itself if it is a record.

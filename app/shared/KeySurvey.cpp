@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace ortung::app {
@@ -76,6 +77,33 @@ std::string numberText(const Question& question, const std::string& what) {
   return what;
 }
 
+/// Joins what was asked for one key by two reads. A bound that was not the same hangs on the values
+/// of other keys, so it is none.
+void join(std::optional<Question>& there, const std::optional<Question>& other) {
+  if (!there) there = other;
+  if (!other || other->kind != there->kind) return;
+  if (other->range.low != there->range.low) there->range.low = Range().low;
+  if (other->range.high != there->range.high) there->range.high = Range().high;
+  if (other->count != there->count) there->count = -1;
+  if (other->choices != there->choices) there->choices.clear();
+}
+
+/// Gives a table another value than the default, if it is one of numbers.
+void vary(Parameters& table, const std::string& key, const Question& question) {
+  using Kind = Question::Kind;
+  if (question.kind == Kind::kNumbers && question.count < 0) {
+    table.set(key, std::vector<double>(3, plausible(question)));
+    return;
+  }
+  if (question.kind != Kind::kNumber && question.kind != Kind::kInteger) return;
+  const double usual =
+      question.fallback ? std::atof(question.fallback->c_str()) : plausible(question);
+  double other = std::min(2.0 * usual + 1.0, question.range.high);
+  if (other == usual) other = std::max(usual / 2.0, question.range.low);
+  if (question.kind == Kind::kInteger) other = std::floor(other);
+  table.set(key, other);
+}
+
 }  // namespace
 
 KeySurvey surveyOf(const Parameters& table) {
@@ -110,7 +138,7 @@ void KeySurvey::addTables(const KeySurvey& others) {
     if (!others.keys.contains(key)) entry.isRequired = false;
   for (const auto& [key, entry] : others.keys) {
     const auto [there, isNew] = keys.try_emplace(key, entry);
-    if (!there->second.question) there->second.question = entry.question;
+    join(there->second.question, entry.question);
     there->second.isRequired =
         entry.isRequired && (isFirst || (!isNew && there->second.isRequired));
   }
@@ -121,49 +149,86 @@ void KeySurvey::addTables(const KeySurvey& others) {
 void KeySurvey::addReader(const KeySurvey& other) {
   for (const auto& [key, entry] : other.keys) {
     Key& there = keys[key];
-    if (!there.question) there.question = entry.question;
+    join(there.question, entry.question);
     there.isRequired = there.isRequired || entry.isRequired;
   }
   for (const auto& [key, survey] : other.tables) tables[key].addReader(survey);
   for (const auto& [name, survey] : other.variants) variants[name].addReader(survey);
 }
 
-KeySurvey surveyKeys(const std::function<void(const Parameters&)>& read) {
+namespace {
+
+/// What is given to a reader: keys of its table by name, and of tables within it by both names.
+struct Given {
+  std::map<std::string, Question> keys;
+  std::map<std::string, std::map<std::string, Question>> tables;
+
+  bool contains(const std::string& key) const { return keys.contains(key) || tables.contains(key); }
+};
+
+/// Adds to what is given the first key that was needed and is not; returns false if there is none.
+bool addMissing(Given& given, const Parameters& table) {
+  for (const auto& [key, question] : table.questions()) {
+    if (!question.fallback && given.keys.emplace(key, question).second) return true;
+    if (question.kind != Question::Kind::kTable) continue;
+    for (const Parameters& below : table.askedTables(key))
+      for (const auto& [inner, its] : below.questions())
+        if (!its.fallback && given.tables[key].emplace(inner, its).second) return true;
+  }
+  return false;
+}
+
+using Reader = std::function<void(const Parameters&)>;
+
+/// Lets a reader read a table of what is given, perhaps with a change. @return the table, and
+/// whether the reader had nothing against it
+std::pair<Parameters, bool> ask(const Reader& read, const Given& given,
+                                const std::function<void(Parameters&)>& change = {}) {
+  Parameters table("survey");
+  table.survey();
+  for (const auto& [key, question] : given.keys) fill(table, key, question);
+  for (const auto& [key, questions] : given.tables) {
+    Parameters below("survey");
+    for (const auto& [inner, question] : questions) fill(below, inner, question);
+    Parameters::Node node;
+    node.value = below;
+    table.set(key, node);
+  }
+  if (change) change(table);
+  try {
+    read(table);
+    return {table, true};
+  } catch (const std::exception&) {
+    return {table, false};
+  }
+}
+
+}  // namespace
+
+KeySurvey surveyKeys(const Reader& read) {
   KeySurvey survey;
-  std::map<std::string, Question> given;
-  const auto ask = [&](const std::map<std::string, Question>& values) {
-    Parameters table("survey");
-    table.survey();
-    for (const auto& [key, question] : values) fill(table, key, question);
-    bool isFine = true;
-    try {
-      read(table);
-    } catch (const std::exception&) {
-      isFine = false;
-    }
-    return std::pair(table, isFine);
-  };
+  Given given;
   for (int i = 0; i < kMostTries; ++i) {
-    const auto [table, isFine] = ask(given);
-    const auto questions = table.questions();
-    const auto missing = std::find_if(questions.begin(), questions.end(), [&](const auto& one) {
-      return !one.second.fallback && !given.contains(one.first);
-    });
-    const bool isLast = isFine || missing == questions.end();
-    if (isLast) {
-      survey = surveyOf(table);
-      break;
-    }
-    given.insert(*missing);
+    const auto [table, isFine] = ask(read, given);
+    if (!isFine && addMissing(given, table)) continue;
+    survey = surveyOf(table);
+    break;
   }
   for (auto& [key, entry] : survey.keys) entry.isRequired = given.contains(key);
   // Whoever only asked whether a key is there reads it if it is.
   for (auto& [key, entry] : survey.keys) {
     if (entry.question) continue;
-    auto values = given;
-    values.emplace(key, Question{.kind = Question::Kind::kNumber});
-    const auto questions = ask(values).first.questions();
+    Given more = given;
+    more.keys.emplace(key, Question{.kind = Question::Kind::kNumber});
+    const auto questions = ask(read, more).first.questions();
     if (questions.contains(key)) entry.question = questions.at(key);
+  }
+  // Bounds that depend on another key differ when that does.
+  for (const auto& [varied, entry] : std::map(survey.keys)) {
+    if (!entry.question) continue;
+    const auto change = [&](Parameters& table) { vary(table, varied, *entry.question); };
+    for (const auto& [key, question] : ask(read, given, change).first.questions())
+      if (survey.keys.contains(key)) join(survey.keys[key].question, question);
   }
   return survey;
 }

@@ -259,7 +259,7 @@ TEST_F(Localization, SourcesWithUnknownKindOrOptionAreRefused) {
     return ortung({"eval", "--source", source, "--robot", path("robot.toml"), "--tables",
                    path("hall.ortung")});
   };
-  expectRefused(with(path("run.rec")), 2, "ortung eval: source", {"KIND:PATH"});
+  expectRefused(with(path("none.rec")), 2, "ortung eval: source", {"KIND:PATH"});
   expectRefused(
       with("telepathy:x"), 1,
       "ortung eval: telepathy:x: there is no kind of source 'telepathy', expected one of ",

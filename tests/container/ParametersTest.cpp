@@ -121,7 +121,8 @@ TEST(Parameters, RefusesWhatNobodyAskedFor) {
   p.number("beams");
   p.numberOr("max_range_m", 5.0);
   EXPECT_EQ(complaint([&] { p.refuseUnread(); }),
-            "x.toml:4: max_rang_m is not known here; known are beams, max_range_m");
+            "x.toml:4: max_rang_m is not known here (did you mean 'max_range_m'?); known are "
+            "beams, max_range_m");
   p.number("max_rang_m");
   EXPECT_NO_THROW(p.refuseUnread());
 }

@@ -90,11 +90,11 @@ TEST(PluginFactory, RefusesAPluginOfYesterdaysInterface) {
 TEST(PluginFactory, SaysWhereItLookedForAPlugin) {
   Only only("good");
   EXPECT_EQ(messageOf<PluginError>([&] { only.factory.makeData("lrf", Parameters()); }),
-            "there is no plugin 'lrf' of kind ortung.SensorData in " + only.folder.path().string() +
-                "; `ortung plugins` lists what there is");
+            "there is no plugin 'lrf' of kind ortung.SensorData; there are good (in " +
+                only.folder.path().string() + ")");
   EXPECT_EQ(messageOf<PluginError>([&] { PluginFactory().make<MotionModel>("x", Parameters()); }),
-            "there is no plugin 'x' of kind ortung.MotionModel in the (empty) search path; `ortung "
-            "plugins` lists what there is");
+            "there is no plugin 'x' of kind ortung.MotionModel; there is none (in the empty search "
+            "path)");
 }
 
 TEST(PluginFactory, TakesNoPathForAName) {
@@ -126,9 +126,9 @@ TEST(PluginFactory, RefusesAMisspeltParameter) {
   Parameters p("r.toml");
   p.set("cuont", Parameters::Node{3.0, 7});
   EXPECT_EQ(messageOf<ConfigError>([&] { only.factory.makeData("good", p); }),
-            "r.toml:7: cuont is not known here; known are count");
+            "r.toml:7: cuont is not known here (did you mean 'count'?); known are count");
   EXPECT_EQ(messageOf<ConfigError>([&] { only.factory.make<MotionModel>("good", p); }),
-            "r.toml:7: cuont is not known here; known are count, step_m");
+            "r.toml:7: cuont is not known here (did you mean 'count'?); known are count, step_m");
 }
 
 TEST(PluginFactory, MakesTwoKindsUnderOneName) {

@@ -40,7 +40,7 @@ TEST(RobotFile, KeepsDevicesApartForWhoeverOpensThem) {
   robot.sensors[0].parameters.text("plugin");
   robot.sensors[0].parameters.refuseUnread();  // simulator and learner pass `device` over
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[devices]\nwait = 1\n"); }),
-            "r.toml:4: wait is not known here; known are wait_s");
+            "r.toml:4: wait is not known here (did you mean 'wait_s'?); known are wait_s");
 }
 
 TEST(RobotFile, SaysWhatIsWrong) {
@@ -51,7 +51,8 @@ TEST(RobotFile, SaysWhatIsWrong) {
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradius_m = -1\n"); }),
             "r.toml:4: radius_m is -1, must be in [0.001, 100]");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[robot]\nradus_m = 1\n"); }),
-            "r.toml:4: radus_m is not known here; known are colour, mass_kg, name, radius_m");
+            "r.toml:4: radus_m is not known here (did you mean 'radius_m'?); known are colour, "
+            "mass_kg, name, radius_m");
   EXPECT_EQ(complaint([] { read("[[sensor]]\nplugin = 'a'\n[sensr]\n"); }),
             "r.toml:3: sensr is not known here; sections of a robot file are [robot], [[sensor]], "
             "[motion], [mcl], [drive], [devices], [[body]] and [[manipulator]]");
@@ -77,8 +78,8 @@ TEST(RobotFile, NamesThePluginThatIsMissing) {
   SensorContainer container;
   const std::string message =
       test::messageOf<PluginError>([&] { fillContainer(container, robot, factory); });
-  EXPECT_NE(message.find(
-                "there is no plugin 'nosuch' of kind ortung.SensorData in the (empty) search path"),
+  EXPECT_NE(message.find("there is no plugin 'nosuch' of kind ortung.SensorData; there is none (in "
+                         "the empty search path"),
             std::string::npos)
       << message;
 }

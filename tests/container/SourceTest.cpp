@@ -26,7 +26,8 @@ TEST(SourceText, RefusesWhatIsNone) {
   for (const char* text : {"", "record", ":path", "Re:x", "a b:x", "../x:y"}) {
     EXPECT_EQ(messageOf<std::invalid_argument>([&] { parseSourceText(text); }),
               std::string("source '") + text +
-                  "': expected KIND:PATH[?key=value&...], e.g. record:run.rec");
+                  "': expected KIND:PATH[?key=value&...], e.g. record:run.rec, or a record, bag or "
+                  "log that says what it is");
   }
   EXPECT_EQ(messageOf<std::invalid_argument>([] { parseSourceText("a:b?c"); }),
             "source 'a:b?c': option 'c' is not key=value");

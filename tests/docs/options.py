@@ -30,7 +30,8 @@ class Program:
     @functools.cache
     def commands(self, *words):
         """Names of the commands below one, e.g. html below export."""
-        return re.findall(r"^  ([a-z][\w-]*)(?= )", self.help(*words), re.MULTILINE) if self.has_commands(*words) else []
+        listed = self.help(*words).split("\nExample:")[0]
+        return re.findall(r"^  ([a-z][\w-]*) ", listed, re.MULTILINE) if self.has_commands(*words) else []
 
     def has_commands(self, *words):
         usage = re.search(r"^Usage: .*$", self.help(*words), re.MULTILINE)

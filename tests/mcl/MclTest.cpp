@@ -353,7 +353,8 @@ TEST(MclConfig, IsReadFromAFilesSection) {
   misspelt.set("particels", 3000.0);
   EXPECT_EQ(
       test::messageOf<ConfigError>([&] { MclConfig::read(misspelt); }),
-      "r.toml: particels is not known here; known are bin_deg, bin_m, budget_ms, drift_deg, "
+      "r.toml: particels is not known here (did you mean 'particles'?); known are bin_deg, bin_m, "
+      "budget_ms, drift_deg, "
       "drift_m, "
       "kld_error, kld_quantile, learns_biases, learns_odometry, max_interval_s, min_distance_m, "
       "min_particles, min_rotation_deg, particles, recover_fast, recover_slow, "

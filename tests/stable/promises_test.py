@@ -34,7 +34,8 @@ def commands(path=()):
     assert code == 0, error
     found = {" ".join(path): sorted(set(re.findall(r"^  (?:-\w,)?(--[a-z][\w-]*)", text, re.MULTILINE)))}
     has_commands = re.search(r"^Usage: .* SUBCOMMAND$", text, re.MULTILINE)
-    for name in re.findall(r"^  ([a-z][\w-]*) ", text, re.MULTILINE) if has_commands else []:
+    listed = text.split("\nExample:")[0]
+    for name in re.findall(r"^  ([a-z][\w-]*) ", listed, re.MULTILINE) if has_commands else []:
         found.update(commands((*path, name)))
     return found
 

@@ -10,7 +10,8 @@ namespace ortung::test {
 
 /// The keys that @p error names as known, which must be that about @p unknown.
 inline std::set<std::string> keysKnownIn(const std::string& error, const std::string& unknown) {
-  const std::string begin = unknown + " is not known here; known are ";
+  EXPECT_NE(error.find(unknown + " is not known here"), error.npos) << error;
+  const std::string begin = "; known are ";
   const std::size_t at = error.find(begin);
   EXPECT_NE(at, error.npos) << error;
   std::set<std::string> keys;

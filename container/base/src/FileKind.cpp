@@ -119,7 +119,7 @@ std::string nameOf(FileKind kind) {
     case FileKind::kScene:
       return "a scene file (for `ortung sim`)";
     case FileKind::kSweep:
-      return "the file of a sweep (for `ortung sweep`)";
+      return "a file of a sweep (for `ortung sweep`)";
     case FileKind::kMotion:
       return "a motion file (for --motion)";
     case FileKind::kMapServer:

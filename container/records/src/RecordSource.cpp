@@ -4,7 +4,6 @@
 
 #include "Chunk.hpp"
 #include "RecordReader.hpp"
-#include "ortung/base/FileKind.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/records/RecordWriter.hpp"
 
@@ -65,8 +64,6 @@ RecordSource::RecordSource(const std::filesystem::path& file, const RecordPart& 
   std::string why;
   std::ifstream in = openInput(file, why);
   if (!in) throw std::runtime_error(file.string() + ": " + why);
-  if (const std::string other = whatItIs(file, {FileKind::kRecord}); !other.empty())
-    throw std::runtime_error(file.string() + ": is no record" + other);
   isCompressed_ = chunk::begins(file, in);
   reader_ = isCompressed_ ? readChunks(file, std::move(in)) : readText(file, std::move(in));
 }

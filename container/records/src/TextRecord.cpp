@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "RecordReader.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/base/InputFile.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/records/RecordEnd.hpp"
@@ -74,7 +75,8 @@ TextRecord::TextRecord(std::filesystem::path file, std::ifstream in)
   if (magic != expected)
     throw std::runtime_error(file_.string() + ":1: found " +
                              inQuotation(magic.substr(0, magic.find('\n'))) + ", expected '" +
-                             std::string(kRecordMagic) + "' or a compressed record");
+                             std::string(kRecordMagic) + "' or a compressed record" +
+                             whatItIs(file_, {FileKind::kRecord}));
   lineNumber_ = 1;
   done_ = magic.size();
   while (in_.peek() == '#' && readWholeLine()) takeNote(line_);
