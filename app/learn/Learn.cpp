@@ -135,6 +135,7 @@ int runLearn(const LearnArguments& arguments) {
   checkHeadingStep(arguments.headingStepDeg);
   Outputs outputs(arguments.force);
   outputs.reads(arguments.world);
+  if (isGridMap(arguments.world)) note(arguments.world.string() + ": is a map, taken as a world");
   outputs.reads(arguments.robot);
   const bool isPart = !arguments.shard.empty();
   outputs.writes("--out", arguments.out, isPart ? OutputKind::kPart : OutputKind::kTables);

@@ -268,5 +268,61 @@ TEST_F(Localize, NeitherWhatIsReadNorPosesAreTakenForTheBelief) {
                 "ortung localize: ", {"there is no folder"});
 }
 
+TEST_F(Localize, ARecordHasReadingsAndResults) {
+  const Outcome written = run({"--record", path("all.rec"), "--out", path("poses.txt")});
+  ASSERT_EQ(written.exitCode, 0) << written.err;
+  // It is a source like the first one: the same poses come of it.
+  const Outcome again = ortung({"localize", "--source", path("all.rec"), "--robot",
+                                path("robot.toml"), "--tables", path("hall.ortung")});
+  ASSERT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(again.out, read("poses.txt"));
+  // Each pose that was printed is in it, in the same order.
+  RecordSource record(path("all.rec"));
+  std::size_t poses = 0, readings = 0;
+  Message message;
+  while (record.next(message)) {
+    if (message.id.model == "mcl")
+      poses += message.id.feature == "pose" ? 1 : 0;
+    else
+      ++readings;
+  }
+  const std::string text = read("poses.txt");
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(poses), std::count(text.begin(), text.end(), '\n') - 1);
+  RecordSource source(path("run.rec"));
+  std::size_t given = 0;
+  while (source.next(message)) ++given;
+  EXPECT_EQ(readings, given);
+  expectRefused(run({"--record", path("r"), "--filter", "grid"}), 2, "ortung localize: --record",
+                {"--filter mcl"});
+}
+
+TEST_F(Localize, ABagIsLocalizedIntoABag) {
+  ASSERT_EQ(run({"--record", path("all.rec"), "--seed", "7"}).exitCode, 0);
+  const auto mcap = [&](const std::string& source, const std::string& out,
+                        const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "export", "mcap",   source, "--robot", path("robot.toml"), "--tables", path("hall.ortung"),
+        "--out",  path(out)};
+    words.insert(words.end(), more.begin(), more.end());
+    return ortung(words);
+  };
+  const Outcome recorded = mcap(path("all.rec"), "a.mcap", {});
+  ASSERT_EQ(recorded.exitCode, 0) << recorded.err;
+  const Outcome localized = mcap(path("run.rec"), "b.mcap", {"--localize", "--seed", "7"});
+  ASSERT_EQ(localized.exitCode, 0) << localized.err;
+  EXPECT_NE(localized.out.find("/particle_cloud"), std::string::npos) << localized.out;
+  // As many messages of each topic as of the localized record. (Their bytes differ in how long
+  // updates took.)
+  const auto topics = [](const Outcome& outcome) {
+    return outcome.out.substr(outcome.out.find(".mcap: "));
+  };
+  EXPECT_EQ(topics(localized), topics(recorded));
+  const Outcome plain = mcap(path("run.rec"), "c.mcap", {});
+  EXPECT_EQ(plain.out.find("/particle_cloud"), std::string::npos) << plain.out;
+  expectRefused(ortung({"export", "mcap", path("run.rec"), "--robot", path("robot.toml"), "--out",
+                        path("d.mcap"), "--localize"}),
+                2, "ortung export mcap: --localize needs --tables", {});
+}
+
 }  // namespace
 }  // namespace ortung::test
