@@ -133,13 +133,12 @@ void serve(ServedWorld& world, const ServingArguments& arguments,
   allowFiles(arguments.clients);
   config.log = warn;
   config.commands = std::move(commands);
-  std::optional<Viewing> viewing;
-  if (arguments.isViewing) viewing.emplace(arguments, config);
+  Viewing viewing(arguments, config);
   try {
     const std::unique_ptr<MessageBoard> opened = openBoard(world, config, arguments);
     MessageBoard& board = *opened;
     fmt::print("listening on {} port {}\n", config.address, board.port());
-    if (viewing) viewing->open(board);
+    viewing.open(board);
     flushOutput();
     const Deadline deadline(board);
     const Rescue rescue([&] { board.abandon("the server ends, a plugin of its world hangs"); });

@@ -36,7 +36,7 @@ std::string newToken() {
 
 WebConfig webConfigOf(const ServingArguments& arguments) {
   WebConfig config;
-  config.page = pageFolder();
+  if (arguments.isViewing) config.page = pageFolder();
   config.hosts = arguments.hosts;
   config.log = warn;
   config.limits.sockets = std::max<std::size_t>(config.limits.sockets, arguments.clients);
@@ -83,6 +83,10 @@ std::filesystem::path pageFolder() {
 
 Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
     : arguments_(arguments), address_(config.address), door_(webConfigOf(arguments)) {
+  config.http = [this](const HttpVisitor& visitor) {
+    return door_.take({visitor.socket, visitor.head, visitor.peer, visitor.join});
+  };
+  if (!arguments.isViewing) return;
   auto& tokens = config.tokens;
   const auto isOurs = [](const BoardToken& token) { return token.name == kClient; };
   if (std::none_of(tokens.begin(), tokens.end(), isOurs)) {
@@ -91,12 +95,10 @@ Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
     tokens.push_back({kClient, token_});
   }
   config.control.emplace_back(kClient);
-  config.http = [this](const HttpVisitor& visitor) {
-    return door_.take({visitor.socket, visitor.head, visitor.peer, visitor.join});
-  };
 }
 
 void Viewing::open(const MessageBoard& board) {
+  if (!arguments_.isViewing) return;
   const std::string url = fmt::format("http://{}:{}/", hostForBrowsers(address_), board.port());
   const std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!door_.hasPage())

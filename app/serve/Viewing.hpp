@@ -12,14 +12,17 @@ namespace ortung::app {
 /// built; "" if there is none.
 std::filesystem::path pageFolder();
 
-/// The viewer's page at the port of a message board, for users who have its address.
+/// What a message board's port speaks besides the board's own protocol: that one over WebSockets
+/// and Foxglove's; if somebody wants to view, the viewer's page, too, for users who have its
+/// address.
 class Viewing {
  public:
   /// Default port of the page, always the same so that browsers find their settings again.
   static constexpr const char* kPort = "7777";
 
-  /// Admits the page, and gives its own client, `view`, the right to control; @p config must have
-  /// its address. If the board has no tokens, other clients are still admitted without one.
+  /// Admits WebSockets. With a page, gives its own client, `view`, the right to control; @p config
+  /// must have its address. If the board has no tokens, other clients are still admitted without
+  /// one.
   /// @throws std::runtime_error if the page's files can't be read
   Viewing(const ServingArguments& arguments, BoardConfig& config);
 

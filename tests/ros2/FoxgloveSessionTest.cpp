@@ -329,6 +329,113 @@ TEST_F(FoxgloveSessionTest, RefusesToPlayAtSpeedsThatAreNone) {
   EXPECT_EQ(saidToBoard(), "");
 }
 
+/// What a client sends on a channel of its own.
+std::string published(std::uint32_t channel, std::string_view message) {
+  std::string bytes(1, '\x01');
+  bytes.append(reinterpret_cast<const char*>(&channel), sizeof channel);
+  return bytes.append(message);
+}
+
+json channelOf(int id, const std::string& topic, const std::string& encoding,
+               const std::string& type) {
+  return {
+      {"op", "advertise"},
+      {"channels", {{{"id", id}, {"topic", topic}, {"encoding", encoding}, {"schemaName", type}}}}};
+}
+
+TEST_F(FoxgloveSessionTest, APoseThatAClientPublishesIsTheFiltersStart) {
+  meet();
+  saidToBoard();
+  client(channelOf(1, "/initialpose", "cdr", "geometry_msgs/msg/PoseWithCovarianceStamped"));
+  ros2::PoseWithCovarianceStamped pose;
+  pose.header.frame = "map";
+  pose.pose.position = {1.5, -2.0, 0.0};
+  pose.pose.orientation = {0.0, 0.0, std::sin(0.25 * M_PI), std::cos(0.25 * M_PI)};  // 90 degrees
+  pose.covariance[0] = 0.25;
+  pose.covariance[7] = 0.25;
+  pose.covariance[35] = std::pow(M_PI / 12.0, 2);  // 15 degrees
+  session_.fromClient(published(1, ros2::toCdr(pose)), true);
+  EXPECT_EQ(saidToBoard(),
+            "LOCALIZE x_m=1.5 y_m=-2 theta_deg=90 sigma_m=0.5 sigma_deg=15 robot=3\n");
+  // Foxglove's own JSON, behind the robot's name. A covariance of zeros says nothing.
+  client(channelOf(2, "/my_robot/initialpose", "json", "geometry_msgs/PoseWithCovarianceStamped"));
+  session_.fromClient(
+      published(2, json{{"header", {{"frame_id", "map"}}},
+                        {"pose",
+                         {{"pose",
+                           {{"position", {{"x", 3}, {"y", 4}, {"z", 0}}},
+                            {"orientation", {{"x", 0}, {"y", 0}, {"z", 1}, {"w", 0}}}}},
+                          {"covariance", std::vector<double>(36, 0.0)}}}}
+                       .dump()),
+      true);
+  EXPECT_EQ(saidToBoard(), "LOCALIZE x_m=3 y_m=4 theta_deg=180 robot=3\n");
+  EXPECT_TRUE(texts("status").empty());
+  pose.header.frame = "odom";
+  session_.fromClient(published(1, ros2::toCdr(pose)), true);
+  pose.header.frame = "map";
+  pose.pose.position.x = NAN;
+  session_.fromClient(published(1, ros2::toCdr(pose)), true);
+  pose.pose.position.x = 0.0;
+  pose.pose.orientation = {0.0, 0.0, 0.0, 0.0};
+  session_.fromClient(published(1, ros2::toCdr(pose)), true);
+  session_.fromClient(published(1, "short"), true);
+  session_.fromClient(published(2, "[1]"), true);
+  session_.fromClient(published(2, R"({"pose":{"pose":{"position":{"x":"far"}}}})"), true);
+  EXPECT_EQ(saidToBoard(), "");
+  EXPECT_EQ(texts("status").size(), 6u);
+}
+
+TEST_F(FoxgloveSessionTest, AVelocityThatAClientPublishesDrivesTheRobotUntilItsChannelGoes) {
+  meet();
+  saidToBoard();
+  client(channelOf(5, "/cmd_vel", "json", "geometry_msgs/msg/Twist"));
+  const auto drive = [&](const json& twist) {
+    session_.fromClient(published(5, twist.dump()), true);
+    return saidToBoard();
+  };
+  EXPECT_EQ(drive({{"linear", {{"x", 0.3}}}, {"angular", {{"z", -0.5}}}}),
+            "VELOCITY v_m_s=0.3 w_rad_s=-0.5 robot=3\n");
+  // A refusal is told once, though velocities come many times a second.
+  EXPECT_NE(drive({{"linear", {{"x", 0.4}}}}), "");
+  saidToClient();
+  session_.fromBoard("ERR role only operators may\nERR role only operators may\n");
+  const auto told = texts("status");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0]["message"].get<std::string>().find("?token=T"), std::string::npos);
+  EXPECT_EQ(drive({{"linear", {{"y", 0.3}}}}), "");  // sideways
+  EXPECT_EQ(drive({{"linear", {{"x", 1e9}}}}), "");
+  EXPECT_EQ(texts("status").size(), 2u);
+  // With a time, in CDR.
+  client(channelOf(6, "my_robot/cmd_vel", "cdr", "geometry_msgs/msg/TwistStamped"));
+  ros2::TwistStamped stamped;
+  stamped.twist.linear.x = 1.0;
+  session_.fromClient(published(6, ros2::toCdr(stamped)), true);
+  EXPECT_EQ(saidToBoard(), "VELOCITY v_m_s=1 w_rad_s=0 robot=3\n");
+  client({{"op", "unadvertise"}, {"channelIds", {5}}});
+  EXPECT_EQ(saidToBoard(), "VELOCITY v_m_s=0 w_rad_s=0 robot=3\n");
+  session_.fromClient(published(5, "{}"), true);
+  EXPECT_EQ(saidToBoard(), "");
+  EXPECT_EQ(texts("status").size(), 1u);
+}
+
+TEST_F(FoxgloveSessionTest, ChannelsOfClientsThatNobodyListensToAreRefused) {
+  meet();
+  saidToBoard();
+  saidToClient();
+  const std::string pose = "geometry_msgs/msg/PoseWithCovarianceStamped";
+  client(channelOf(1, "/goal_pose", "json", "geometry_msgs/msg/PoseStamped"));
+  client(channelOf(2, "/initialpose", "protobuf", pose));
+  client(channelOf(3, "/initialpose", "json", "geometry_msgs/msg/Pose"));
+  client({{"op", "advertise"}, {"channels", {{{"topic", "/cmd_vel"}}, 7, nullptr}}});
+  EXPECT_EQ(texts("status").size(), 6u);
+  client(channelOf(4, "/nobody/initialpose", "json", pose));
+  session_.fromClient(published(4, R"({"pose":{"pose":{"orientation":{"w":1}}}})"), true);
+  const auto told = texts("status");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0]["message"].get<std::string>().find("no robot 'nobody'"), std::string::npos);
+  EXPECT_EQ(saidToBoard(), "");
+}
+
 TEST_F(FoxgloveSessionTest, EndsWhenTheBoardRefusesIt) {
   session_.fromBoard("ERR token wrong\n");
   EXPECT_TRUE(session_.isOver);

@@ -12,11 +12,11 @@ namespace {
 constexpr const char* kNoPage =
     "<!doctype html>\n<html lang=\"en\">\n<head><meta "
     "charset=\"utf-8\"><title>Ortung</title></head>\n"
-    "<body>\n<h1>Ortung</h1>\n<p>This program was built without the viewer's page. Its source is "
-    "in "
-    "<code>board/web/page</code>: <code>npm ci &amp;&amp; npm run build</code> makes it. Clients "
-    "of "
-    "the protocol work all the same.</p>\n</body>\n</html>\n";
+    "<body>\n<h1>Ortung</h1>\n<p>This server shows no page: start it with <code>--view</code>. (A "
+    "program "
+    "that was built without the page has none. Its source is in <code>board/web/page</code>: "
+    "<code>npm ci &amp;&amp; npm run build</code> makes it.) Clients of the protocol work all the "
+    "same.</p>\n</body>\n</html>\n";
 
 /// Types that browsers believe, as they are told not to guess.
 std::string typeOf(const std::filesystem::path& file) {

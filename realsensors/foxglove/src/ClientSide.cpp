@@ -87,8 +87,8 @@ void FoxgloveSession::Parts::tellRest() {
 void FoxgloveSession::Parts::sendInfo(const std::string& world) {
   json info{{"op", "serverInfo"},
             {"name", "ortung: " + world},
-            {"capabilities", json::array({"time"})},
-            {"supportedEncodings", json::array()},
+            {"capabilities", json::array({"time", "clientPublish"})},
+            {"supportedEncodings", json::array({"json", "cdr"})},
             {"metadata", {{"kind", kind}}}};
   if (start && end) {
     for (const char* name :
@@ -147,10 +147,16 @@ void FoxgloveSession::Parts::takeText(std::string_view text) {
     for (const json& one : listIn(message, "subscriptionIds"))
       if (const auto id = numberIn(one)) unsubscribe(*id);
     subscribeAtBoard();
+  } else if (name == "advertise") {
+    for (const json& one : listIn(message, "channels")) takeClientChannel(one);
+  } else if (name == "unadvertise") {
+    for (const json& one : listIn(message, "channelIds"))
+      if (const auto id = numberIn(one)) removeClientChannel(*id);
   } else {
     constexpr std::size_t kShown = 40;
     tell(Level::kWarning, "found the operation '" + name.substr(0, kShown) +
-                              "', expected subscribe or unsubscribe: this server has no other");
+                              "', expected subscribe, unsubscribe, advertise or unadvertise: this "
+                              "server has no other");
   }
 }
 
@@ -176,10 +182,11 @@ void FoxgloveSession::Parts::unsubscribe(std::uint32_t subscription) {
 }
 
 void FoxgloveSession::Parts::takeBinary(std::string_view message) {
+  if (foxglove::isPublished(message)) return takePublished(message);
   const auto request = foxglove::parsePlaybackRequest(message);
   if (!request)
     return tell(Level::kError,
-                "found a binary message that is not a request to play, expected one");
+                "found a binary message that is neither a publication nor a request to play");
   if (!start || !end)
     return tell(Level::kError, "only a record can be played and sought in; this is not a record");
   control(*request);

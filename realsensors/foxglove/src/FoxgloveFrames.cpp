@@ -9,7 +9,9 @@ namespace {
 constexpr char kMessageData = 1;
 constexpr char kTime = 2;
 constexpr char kPlaybackState = 5;
-constexpr char kPlaybackControl = 3;  // operation of clients
+// Operations of clients.
+constexpr char kClientMessage = 1;
+constexpr char kPlaybackControl = 3;
 
 template <class T>
 void put(std::string& out, T number) {
@@ -49,6 +51,10 @@ std::string playbackFrame(const PlaybackState& state) {
   put(frame, static_cast<std::uint32_t>(state.request.size()));
   frame += state.request;
   return frame;
+}
+
+bool isPublished(std::string_view bytes) {
+  return !bytes.empty() && bytes.front() == kClientMessage;
 }
 
 std::optional<PlaybackRequest> parsePlaybackRequest(std::string_view bytes) {

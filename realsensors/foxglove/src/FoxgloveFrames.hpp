@@ -31,6 +31,9 @@ std::string messageFrame(std::uint32_t subscription, std::uint64_t time, std::st
 /// Encodes the world's time. @param time [ns since 1970]
 std::string timeFrame(std::uint64_t time);
 std::string playbackFrame(const PlaybackState& state);
+/// Whether a client's binary message is one that it publishes: the number of its channel (4 bytes)
+/// and the message follow the first byte.
+bool isPublished(std::string_view bytes);
 /// Decodes a client's binary message; nothing if it is not a valid request.
 std::optional<PlaybackRequest> parsePlaybackRequest(std::string_view bytes);
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "BoardReplies.hpp"
+#include "ClientMessages.hpp"
 #include "DescribedRobot.hpp"
 #include "FoxgloveFrames.hpp"
 #include "ortung/foxglove/FoxgloveSession.hpp"
@@ -52,7 +54,10 @@ struct FoxgloveSession::Parts {
   bool hasWorldTruth = true;
   std::size_t faultsTold = 0;    ///< faults of the message that is taken of which it was told
   std::size_t faultsUntold = 0;  ///< and of which it was not
-  bool isCrowded = false;        ///< whether there may be several robots: topics have their names
+  std::map<std::uint32_t, foxglove::ClientChannel>
+      published;               ///< channels of the client, by its id
+  bool isRefusalTold = false;  ///< whether it was told that velocities are refused
+  bool isCrowded = false;      ///< whether there may be several robots: topics have their names
 
   explicit Parts(FoxgloveSession& owner);
 
@@ -80,6 +85,11 @@ struct FoxgloveSession::Parts {
   void takeBinary(std::string_view message);
   void subscribe(std::uint32_t subscription, std::uint32_t channel);
   void unsubscribe(std::uint32_t subscription);
+  void takeClientChannel(const nlohmann::json& channel);
+  void removeClientChannel(std::uint32_t id);
+  void takePublished(std::string_view message);
+  std::optional<std::int64_t> robotFor(const std::string& topic);
+  void order(const std::string& request, std::int64_t robot);
   void control(const foxglove::PlaybackRequest& request);
   void tellPlayback(const BoardReply& status, bool hasSought, const std::string& request);
   /// Tells it what is wrong with its message, and of that little: so an answer is not much longer

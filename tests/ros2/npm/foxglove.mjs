@@ -23,7 +23,7 @@ async function serve(t, ...words) {
     text += piece;
     const port = /port (\d+)/.exec(text);
     const token = /#token=(\w+)/.exec(text);
-    if (port && token) return { port: port[1], token: token[1] };
+    if (port && (token || !(words.includes("--view") || words[0] === "view"))) return { port: port[1], token: token?.[1] };
   }
   throw new Error(`the server ended: ${text}`);
 }
@@ -78,6 +78,55 @@ for (const protocol of ["foxglove.websocket.v1", "foxglove.sdk.v1"]) {
     assert.ok(stamps.every((time, i) => i === 0 || time > stamps[i - 1]));
   });
 }
+
+test("a server without a page speaks it, too", async (t) => {
+  const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--listen", "0", "--speed", "20");
+  const { info, heard } = await hear(`ws://127.0.0.1:${port}/`, "foxglove.sdk.v1", ["/pioneer_lrf/scan"], 3);
+  assert.ok(info.capabilities.includes("clientPublish") && info.supportedEncodings.includes("json"));
+  assert.equal(heard.get("/pioneer_lrf/scan")[0].value.ranges.length, 180);
+  const page = await fetch(`http://127.0.0.1:${port}/`);
+  assert.match(await page.text(), /shows no page/);
+});
+
+test("who has the token places and drives a robot, who has not is told so", async (t) => {
+  const { port, token } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0", "--no-browser");
+  const until = async (isDone) => {
+    while (!isDone()) await new Promise((done) => setTimeout(done, 20)); // the test's own time limit ends it
+  };
+  const meet = async (url) => {
+    const socket = new WebSocket(url, ["foxglove.sdk.v1"]);
+    t.after(() => socket.close());
+    const client = new FoxgloveClient({ ws: socket });
+    const told = { client, statuses: [], channels: new Map(), odometry: [] };
+    client.on("status", (status) => told.statuses.push(status));
+    const readers = new Map();
+    client.on("advertise", (channels) => {
+      for (const channel of channels) {
+        told.channels.set(channel.topic, channel);
+        if (channel.topic !== "/pioneer_lrf/odom") continue;
+        readers.set(client.subscribe(channel.id), new MessageReader(parseSchema(channel.schema)));
+      }
+    });
+    client.on("message", ({ subscriptionId, data }) => told.odometry.push(readers.get(subscriptionId).readMessage(data)));
+    await until(() => told.odometry.length > 1);
+    return told;
+  };
+  const drive = (told, speed) => {
+    const id = told.client.advertise({ topic: "/cmd_vel", encoding: "json", schemaName: "geometry_msgs/msg/Twist" });
+    told.client.sendMessage(id, new TextEncoder().encode(JSON.stringify({ linear: { x: 0, y: 0, z: 0 }, angular: { x: 0, y: 0, z: speed } })));
+  };
+  const guest = await meet(`ws://127.0.0.1:${port}/`);
+  drive(guest, 0.7);
+  await until(() => guest.statuses.length > 0);
+  assert.match(guest.statuses[0].message, /operator/);
+  const operator = await meet(`ws://127.0.0.1:${port}/?token=${token}`);
+  drive(operator, 0.7);
+  const turns = () => operator.odometry.at(-1).twist.twist.angular.z;
+  await until(() => Math.abs(turns() - 0.7) < 0.05);
+  const id = operator.client.advertise({ topic: "/initialpose", encoding: "json", schemaName: "geometry_msgs/msg/PoseWithCovarianceStamped" });
+  operator.client.sendMessage(id, new TextEncoder().encode(JSON.stringify({ header: { frame_id: "map" }, pose: { pose: { position: { x: 1, y: 1, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } } } })));
+  assert.deepEqual(operator.statuses, []);
+});
 
 test("nonsense is answered and does not end the conversation", async (t) => {
   const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0");
