@@ -12,6 +12,32 @@ constexpr const char* kSources =
     "KIND:PATH?key=value, e.g. record:run.rec; `ortung plugins` lists the kinds; may be given "
     "again";
 
+void addHarderRuns(Builder& build, EvalArguments& a) {
+  build.group("Harder runs, and many of them");
+  build
+      .option("--fault", a.faults,
+              "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
+      .repeats();
+  build
+      .option("--runs", a.runs,
+              "Runs of each source, with the seeds from --seed on, on as many threads as --threads "
+              "says or the machine has")
+      .within(1, 1e6)
+      .showsDefault();
+  build
+      .option("--kidnap", a.kidnaps,
+              "Cases made of each source: the robot tracks and is carried 8 m or more away")
+      .within(1, 1e6);
+  build
+      .option("--wake-ups", a.wakeUps,
+              "Cases made of each source: an unknown start at a random time, right within 5 m")
+      .within(1, 1e6);
+  build
+      .option("--teleport", a.teleport,
+              "Kidnaps per metre travelled, e.g. 0.005, in each of --runs runs")
+      .within(1e-6, 1e3);
+}
+
 void addEval(Builder& build) {
   const std::string example =
       "ortung eval --source record:run.rec --robot robot.toml --tables hall.ortung --report "
@@ -43,29 +69,7 @@ void addEval(Builder& build) {
       .option("--converged-within", a->convergedWithin,
               "Error m,deg below which the filter has converged")
       .showsDefault();
-  build.group("Harder runs, and many of them");
-  build
-      .option("--fault", a->faults,
-              "WHAT=FAULT[:VALUE][@FROM-TO], readings that go wrong; see below; may be given again")
-      .repeats();
-  build
-      .option("--runs", a->runs,
-              "Runs of each source, with the seeds from --seed on, on as many threads as --threads "
-              "says or the machine has")
-      .within(1, 1e6)
-      .showsDefault();
-  build
-      .option("--kidnap", a->kidnaps,
-              "Cases made of each source: the robot tracks and is carried 8 m or more away")
-      .within(1, 1e6);
-  build
-      .option("--wake-ups", a->wakeUps,
-              "Cases made of each source: an unknown start at a random time, right within 5 m")
-      .within(1, 1e6);
-  build
-      .option("--teleport", a->teleport,
-              "Kidnaps per metre travelled, e.g. 0.005, in each of --runs runs")
-      .within(1e-6, 1e3);
+  addHarderRuns(build, *a);
   build.shard(a->shard, a->job);
   build.footer([example] {
     return "Faults: WHAT is odometry, readings (all others) or a feature's name; times in seconds\n"

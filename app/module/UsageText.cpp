@@ -27,7 +27,7 @@ std::optional<std::string> unknownOption(const CLI::App& command,
   for (const std::string& word : words) {
     if (word == "--") break;
     if (!word.starts_with("--")) continue;
-    const std::string name = word.substr(0, word.find('='));
+    std::string name = word.substr(0, word.find('='));
     if (command.get_option_no_throw(name) == nullptr) return name;
   }
   return std::nullopt;

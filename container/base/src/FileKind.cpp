@@ -109,7 +109,8 @@ std::string nameOf(FileKind kind) {
     case FileKind::kUnknown:
       return "";
     case FileKind::kTables:
-      return "a file of tables of `ortung learn` (for --tables) or of a part of a job (for `ortung merge`)";
+      return "a file of tables of `ortung learn` (for --tables) or of a part of a job (for `ortung "
+             "merge`)";
     case FileKind::kRecord:
       return "a record (as a source: record:FILE)";
     case FileKind::kRobot:

@@ -2,8 +2,8 @@
 
 namespace ortung {
 
-// What a grid map means that nobody has said more about: keys of [[grid]] for a map that is given as
-// a world, or is made of scans.
+// What a grid map means that nobody has said more about: keys of [[grid]] for a map that is given
+// as a world, or is made of scans.
 
 /// Depth of surfaces in a cell, `surface_depth_cells`: a surface was found somewhere in a cell, so
 /// its middle is the best guess.
