@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
-#include <list>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -12,10 +10,8 @@
 #include "Interrupt.hpp"
 #include "Progress.hpp"
 #include "RobotSettings.hpp"
-#include "ortung/base/Angles.hpp"
 #include "ortung/robot/RobotFile.hpp"
-#include "ortung/sim/Learner.hpp"
-#include "ortung/sim/RobotShape.hpp"
+#include "ortung/sim/TableLearner.hpp"
 
 namespace ortung::app {
 namespace {
@@ -26,50 +22,23 @@ constexpr std::size_t kWordsAnArray = std::size_t{1} << 22;  ///< of readings in
 
 std::string arrayName(std::size_t number) { return fmt::format("readings.{:05}", number); }
 
-/// World, robot and learner of the command's arguments, as the player `learner` makes them.
-class Desk {
- public:
-  explicit Desk(const LearnArguments& arguments)
-      : arguments_(arguments),
-        world_(readWorld(arguments.world)),
-        robot_(readRobot(arguments.robot)),
-        options_{arguments.cell, kTurn / std::round(360.0 / arguments.headingStepDeg)},
-        region_(learnAreaOf(*world_, arguments.cell, sizeOf(robot_), areaOf(arguments)).region) {
-    // A thread that generates needs a robot of its own, beside the one that learns.
-    const std::size_t rigs = arguments.threads > 1 ? arguments.threads + 1 : 1;
-    for (std::size_t i = 0; i < rigs; ++i) {
-      containers_.emplace_back();
-      devices_.push_back(fillContainer(containers_.back(), robot_, factory_));
-    }
-    learner_ = std::make_unique<Learner>(*world_, region_, devices_.front(),
-                                         std::span(devices_).subspan(1), factory_, options_);
-  }
+/// Returns what learns by the command's arguments.
+TableLearner learnerOf(const LearnArguments& arguments) {
+  return TableLearner(
+      readWorld(arguments.world), readRobot(arguments.robot),
+      {arguments.cell, arguments.headingStepDeg, areaOf(arguments), arguments.threads});
+}
 
-  Learner& learner() { return *learner_; }
-  std::string needs() const {
-    return Json{{"world", arguments_.world.string()},
-                {"robot", arguments_.robot.string()},
-                {"cell_m", arguments_.cell},
-                {"heading_step_deg", arguments_.headingStepDeg},
-                {"area", arguments_.area},
-                {"set", arguments_.settings}}
-        .dump(-1, ' ', true, Json::error_handler_t::replace);
-  }
-  std::uintmax_t write(const std::filesystem::path& out) const {
-    return writeTables(out, containers_.front(), tableInfoOf(*world_, robot_, region_, options_));
-  }
-
- private:
-  const LearnArguments& arguments_;
-  PluginFactory factory_{PluginFactory::standardFolders()};
-  std::unique_ptr<SimWorld> world_;
-  RobotConfig robot_;
-  LearnOptions options_;
-  FieldRegion region_;
-  std::list<SensorContainer> containers_;
-  std::vector<std::vector<Device>> devices_;
-  std::unique_ptr<Learner> learner_;
-};
+/// Returns the arguments as parts keep them.
+std::string needsOf(const LearnArguments& arguments) {
+  return Json{{"world", arguments.world.string()},
+              {"robot", arguments.robot.string()},
+              {"cell_m", arguments.cell},
+              {"heading_step_deg", arguments.headingStepDeg},
+              {"area", arguments.area},
+              {"set", arguments.settings}}
+      .dump(-1, ' ', true, Json::error_handler_t::replace);
+}
 
 /// Writes readings in arrays of some size.
 class ReadingsWriter {
@@ -115,16 +84,16 @@ LearnArguments argumentsOf(const PartSet& parts) {
 
 void learnShard(const LearnArguments& arguments, const Shard& shard,
                 const std::filesystem::path& out) {
-  Desk desk(arguments);
-  PartWriter part(out, {kLearnParts, arguments.job, shard, desk.needs()});
+  TableLearner tables = learnerOf(arguments);
+  PartWriter part(out, {kLearnParts, arguments.job, shard, needsOf(arguments)});
   ReadingsWriter readings(part.content());
-  desk.learner().passOn(shard.number, shard.count,
-                        [&](std::span<const std::uint32_t> words) { readings.add(words); });
+  tables.learner().passOn(shard.number, shard.count,
+                          [&](std::span<const std::uint32_t> words) { readings.add(words); });
   {
     Progress progress("generating readings", arguments.progress);
-    while (desk.learner().step()) {
+    while (tables.learner().step()) {
       checkInterrupt();
-      progress.update(desk.learner().share());
+      progress.update(tables.learner().share());
     }
   }
   readings.flush();
@@ -137,7 +106,7 @@ void mergeLearned(const PartSet& parts, const std::filesystem::path& out, bool p
   const LearnArguments arguments = argumentsOf(parts);
   parts.requireInputs();
   applySettings(arguments.robot, arguments.settings);
-  Desk desk(arguments);
+  TableLearner tables = learnerOf(arguments);
   Progress bar("learning", progress);
   try {
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -145,16 +114,16 @@ void mergeLearned(const PartSet& parts, const std::filesystem::path& out, bool p
       for (std::size_t k = 0; k < part.arrays().size(); ++k) {
         checkInterrupt();
         const auto words = part.get<std::int32_t>(arrayName(k), {0});
-        desk.learner().learnFrom(
+        tables.learner().learnFrom(
             {reinterpret_cast<const std::uint32_t*>(words.data()), words.size()});
-        bar.update(desk.learner().share());
+        bar.update(tables.learner().share());
       }
     }
-    desk.learner().endLearning();
+    tables.learner().endLearning();
   } catch (const std::invalid_argument& error) {
     throw PartError({std::string("the parts are not whole: ") + error.what()});
   }
-  const std::uintmax_t bytes = desk.write(out);
+  const std::uintmax_t bytes = tables.write(out);
   fmt::print("{}: tables of {} parts, {:.1f} MB\n", out.string(), parts.size(),
              static_cast<double>(bytes) / 1e6);
 }

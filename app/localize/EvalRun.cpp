@@ -82,14 +82,14 @@ std::vector<CaseEvent> eventsOf(const EvalSettings& settings, const EvalJob& job
   return events;
 }
 
-/// Runs MCL over a source. It compares the poses that a program would get at even times. Between
-/// two readings of odometry it interpolates odometry, since logs have fewer of its readings than
-/// the robot had.
+/// Runs MCL over a source, and evaluates it.
 class Run {
  public:
   Run(const EvalSettings& settings, const LocalizationArguments& arguments,
       Localization& localization)
-      : arguments_(arguments), localization_(localization), evaluation_(settings.options) {}
+      : arguments_(arguments),
+        localization_(localization),
+        evaluation_(localization, settings.options) {}
 
   /// @param isDone called every few seconds of the log; returns true to end
   void toTheEnd(const std::function<bool(const Evaluation&)>& isDone,
@@ -97,17 +97,13 @@ class Run {
     const auto look = [this](const Feeder& feeder) { onMoment(feeder); };
     while (const std::optional<EvaluationStep> step = nextStep(localization_, arguments_, look)) {
       evaluation_.addStep(*step);
-      result_.estimates.push_back(step->estimate);
-      result_.path.push_back(step->estimate);
-      result_.updateMs.push_back(static_cast<float>(step->updateMilliseconds));
       if (arguments_.besideGrid) compareWithGrid();
       if (progress) progress(localization_.feeder().progress());
       if (!isDone || step->estimate.stamp < nextVerdict_) continue;
       nextVerdict_ = step->estimate.stamp + kBetweenVerdicts;
-      if (isDone(evaluation_)) break;
+      if (isDone(evaluation_.evaluation())) break;
     }
-    result_.figures = evaluation_.result(arguments_.source);
-    result_.calibration = calibrationOf(result_.figures.points);
+    static_cast<EvaluatedRun&>(result_) = std::move(evaluation_).result(arguments_.source);
   }
   RunResult& result() { return result_; }
   /// Passes the readings of all times to a bound. @param bound borrowed
@@ -124,25 +120,14 @@ class Run {
                                   distance(ours.pose, its.pose)});
   }
   void onMoment(const Feeder& feeder) {
-    if (!any_) result_.first = feeder.stamp();
-    any_ = true;
     if (bound_ != nullptr) bound_->look(localization_.container(), feeder.stamp(), feeder.truth());
-    localization_.followOdometry();
-    for (const Timestamp time : evaluation_.due(feeder.stamp(), feeder.truth().has_value())) {
-      const auto estimate = localization_.estimate(time);
-      if (!estimate) continue;
-      evaluation_.addMoment(*estimate);
-      result_.path.push_back(*estimate);
-    }
-    evaluation_.addTime(feeder.stamp());
-    if (feeder.truth()) evaluation_.addTruth(feeder.stamp(), *feeder.truth());
+    evaluation_.addMoment();
   }
 
   const LocalizationArguments& arguments_;
   Localization& localization_;
-  Evaluation evaluation_;
+  RunEvaluation evaluation_;
   RunResult result_;
-  bool any_ = false;
   SimulatedBound* bound_ = nullptr;
   Timestamp nextVerdict_ = std::numeric_limits<Timestamp>::min();
 };

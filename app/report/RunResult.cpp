@@ -9,6 +9,7 @@
 #include "Console.hpp"
 #include "RunJson.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/study/Figures.hpp"
 
 namespace ortung::app {
 namespace {
@@ -79,11 +80,11 @@ GridComparison besideGridOf(const RunResult& run) {
   return {0, median(divergences), median(distances)};
 }
 
-void addProtection(const EvaluationResult& figures, nlohmann::ordered_json& json) {
-  json["beyond_protection_share"] = jsonNumber(figures.beyondProtectionShare);
-  json["beyond_protection_uncertain_share"] = jsonNumber(figures.beyondProtectionUncertainShare);
-  json["protection_median_m"] = jsonNumber(figures.protectionMedian);
-  json["protection_ratio"] = jsonNumber(figures.protectionRatio);
+void addFigures(const NamedFigures& figures, nlohmann::ordered_json& json) {
+  for (const NamedFigure& one : figures) {
+    json[one.name] = jsonNumber(one.value);
+    if (one.isCount) json[one.name] = static_cast<std::size_t>(one.value);
+  }
 }
 
 void addChanges(const MapChanges& changes, nlohmann::ordered_json& json) {
@@ -116,51 +117,18 @@ std::string jsonText(const nlohmann::ordered_json& json) {
 
 nlohmann::ordered_json jsonOf(const RunResult& run) {
   const EvaluationResult& figures = run.figures;
-  const EvaluationErrors& overTime = figures.overTime;
   const EvaluationErrors& atCorrections = figures.atCorrections;
-  constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
   nlohmann::ordered_json json = {
-      {"source", figures.source},
-      {"robot", run.robot},
-      {"tables", run.tables},
-      {"world", run.tableInfo.world},
-      {"seed", run.seed},
-      {"particles", run.particles},
-      {"start", run.start},
-      {"faults", run.faults},
-      {"steps", figures.steps},
-      {"compared_steps", atCorrections.compared},
-      {"duration_s", jsonNumber(figures.duration)},
-      {"particles_mean", jsonNumber(figures.particlesMean)},
-      {"compared_moments", overTime.compared},
-      {"moment_period_s", jsonNumber(figures.period)},
-      {"position_rmse_m", jsonNumber(overTime.positionRmse)},
-      {"position_median_m", jsonNumber(overTime.positionMedian)},
-      {"position_p95_m", jsonNumber(overTime.positionP95)},
-      {"position_p99_m", jsonNumber(overTime.positionP99)},
-      {"position_max_m", jsonNumber(overTime.positionMax)},
-      {"heading_rmse_deg", jsonNumber(degrees(overTime.headingRmse))},
-      {"converged_after_s", jsonNumber(figures.convergedAfter.value_or(kNever))},
-      {"converged_after_m", jsonNumber(figures.convergedDistance)},
-      {"lost_share", jsonNumber(overTime.lostShare)},
-      {"tracking_share", jsonNumber(figures.trackingShare)},
-      {"wrong_while_tracking_share", jsonNumber(figures.wrongWhileTrackingShare)},
-      {"quality", jsonOf(run.calibration)},
-      {"update_ms_p50", jsonNumber(figures.updateMsP50)},
-      {"update_ms_p99", jsonNumber(figures.updateMsP99)},
-      {"update_ms_max", jsonNumber(figures.updateMsMax)},
-      {"realtime_factor", jsonNumber(figures.realtimeFactor)},
-      {"nees_mean", jsonNumber(overTime.neesMean)},
-      {"nees_above_share", jsonNumber(overTime.neesAboveShare)},
-      {"at_corrections",
-       {{"position_rmse_m", jsonNumber(atCorrections.positionRmse)},
-        {"position_median_m", jsonNumber(atCorrections.positionMedian)},
-        {"position_p95_m", jsonNumber(atCorrections.positionP95)},
-        {"heading_rmse_deg", jsonNumber(degrees(atCorrections.headingRmse))},
-        {"lost_share", jsonNumber(atCorrections.lostShare)},
-        {"nees_mean", jsonNumber(atCorrections.neesMean)}}},
-      {"gaps", gapsOf(run)},
+      {"source", figures.source},     {"robot", run.robot},   {"tables", run.tables},
+      {"world", run.tableInfo.world}, {"seed", run.seed},     {"particles", run.particles},
+      {"start", run.start},           {"faults", run.faults},
   };
+  addFigures(errorFigures(figures), json);
+  json["quality"] = jsonOf(run.calibration);
+  addFigures(timeFigures(figures), json);
+  addFigures(consistencyFigures(figures), json);
+  addFigures(correctionFigures(figures), json["at_corrections"]);
+  json["gaps"] = gapsOf(run);
   const BoundFigures bound = run.bound.value_or(BoundFigures());
   json["bound_median_m"] = jsonNumber(bound.positionMedian);
   json["bound_rmse_m"] = jsonNumber(bound.positionRmse);
@@ -170,18 +138,10 @@ nlohmann::ordered_json jsonOf(const RunResult& run) {
   const GridComparison besideGrid = besideGridOf(run);
   json["grid_divergence_median"] = jsonNumber(besideGrid.divergence);
   json["grid_distance_median_m"] = jsonNumber(besideGrid.distance);
-  addProtection(figures, json);
+  addFigures(protectionFigures(figures), json);
   addChanges(run.changes, json);
   if (run.kind != RunKind::kWhole) json["case"] = caseOf(run);
   return json;
-}
-
-Calibration calibrationOf(const std::vector<EvaluationPoint>& points) {
-  constexpr double kRight = 0.5;  // [m], as in PoseEstimate::quality
-  std::vector<Claim> claims;
-  for (const EvaluationPoint& p : points)
-    claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
-  return calibrationOf(std::move(claims));
 }
 
 std::string toJson(const RunResult& run) { return jsonText(jsonOf(run)); }

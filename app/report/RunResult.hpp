@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "Calibration.hpp"
 #include "ortung/mcl/MapChanges.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/study/Evaluation.hpp"
 #include "ortung/study/PoseBound.hpp"
+#include "ortung/study/RunEvaluation.hpp"
 
 namespace ortung::app {
 
@@ -43,13 +43,7 @@ struct GridComparison {
 };
 
 /// An evaluated run with everything that it depends on.
-struct RunResult {
-  EvaluationResult figures;
-  Timestamp first = 0;                  ///< stamp of the first reading
-  std::vector<PoseEstimate> estimates;  ///< estimates of all updates, with or without truth
-  /// Estimates in the order of time: at all updates and at the even times at which figures.points
-  /// are taken, with or without ground truth.
-  std::vector<PoseEstimate> path;
+struct RunResult : EvaluatedRun {
   std::uint64_t seed = 0;
   std::size_t particles = 0;  ///< greatest number of samples
   std::string robot;          ///< robot file
@@ -61,17 +55,12 @@ struct RunResult {
   RunKind kind = RunKind::kWhole;
   std::size_t number = 1;                  ///< number among the runs of its kind, from 1
   std::vector<CaseEvent> events;           ///< events of a case
-  std::vector<float> updateMs;             ///< duration of each update [ms]
-  Calibration calibration;                 ///< calibration of the claimed quality
   std::optional<BoundFigures> bound;       ///< Cramer-Rao bound, if it was requested
   std::vector<PoseBound> bounds;           ///< that bound at all times
   std::vector<GridComparison> besideGrid;  ///< comparison at updates, if it was requested
   MapChanges changes;                      ///< where the map no longer fits, at the end
   std::vector<float> errors;               ///< position errors at all times after convergence [m]
 };
-
-/// Computes the calibration of the filter's probability that the position error is below 0.5 m.
-Calibration calibrationOf(const std::vector<EvaluationPoint>& points);
 
 /// Returns the figures as a JSON object; NaN becomes null. docs/mcl.md describes its keys.
 std::string toJson(const RunResult& run);

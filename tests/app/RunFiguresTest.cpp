@@ -203,7 +203,7 @@ TEST(RunFigures, QualityIsComparedWithErrorsBelowHalfAMetre) {
   points[3].quality = 0.15;
   points[3].positionError = 3.0;
   RunResult run = figuredRun();
-  run.calibration = calibrationOf(points);
+  run.calibration = qualityCalibration(points);
   const auto quality = nlohmann::json::parse(toJson(run))["quality"];
   ASSERT_EQ(quality["bins"].size(), 10u);
   EXPECT_EQ(quality["bins"][9]["moments"], 2);

@@ -2,50 +2,42 @@
 // features that localize learn their readings; writes the tables, and ends.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
-#include <list>
+#include <filesystem>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "ortung/base/Angles.hpp"
 #include "ortung/core/Plugin.hpp"
-#include "ortung/robot/TableInfo.hpp"
-#include "ortung/sim/Learner.hpp"
 #include "ortung/sim/PlayerControl.hpp"
-#include "ortung/sim/RobotShape.hpp"
+#include "ortung/sim/TableLearner.hpp"
 
 namespace ortung {
 namespace {
 
-struct Settings {
-  std::filesystem::path out;
-  double cell = 0.1;          ///< edge length of a cell [m]
-  double headingStep = 0.0;   ///< angle between headings [rad]
-  std::string area = "auto";  ///< "auto", "all", or x and y with a semicolon between them [m]
-  int threads = 1;
-
-  explicit Settings(const Parameters& p) {
-    out = p.text("out");
-    cell = p.numberOr("cell_m", cell, {1e-3, 10.0});
-    const double steps = 360.0 / p.numberOr("heading_step_deg", 2.0, {1e-3, 360.0});
-    if (std::abs(steps - std::round(steps)) > 1e-6)
-      p.fail("heading_step_deg", "expected degrees that divide a turn, e.g. 1, 2 or 2.5");
-    headingStep = kTurn / std::round(steps);
-    area = p.textOr("area", area);
-    threads = static_cast<int>(p.integerOr("threads", 1, {1, 256}));
+/// Reads the player's options, but the file that it writes.
+TableLearner::Settings settingsOf(const Parameters& p) {
+  TableLearner::Settings settings;
+  settings.cell = p.numberOr("cell_m", settings.cell, {1e-3, 10.0});
+  settings.headingStepDeg = p.numberOr("heading_step_deg", settings.headingStepDeg, {1e-3, 360.0});
+  settings.area = p.textOr("area", settings.area);
+  settings.threads = static_cast<unsigned>(p.integerOr("threads", 1, {1, 256}));
+  try {
+    settings.check();
+  } catch (const std::invalid_argument&) {
+    p.fail("heading_step_deg", "expected degrees that divide a turn, e.g. 1, 2 or 2.5");
   }
-};
+  return settings;
+}
 
 class LearnerPlayer : public Player {
  public:
-  explicit LearnerPlayer(const Parameters& p) : settings_(p) {}
+  explicit LearnerPlayer(const Parameters& p) : out_(p.text("out")), settings_(settingsOf(p)) {}
 
   bool needsStage() const override { return true; }
 
@@ -57,16 +49,15 @@ class LearnerPlayer : public Player {
       return one->config().name == seat.name();
     });
     if (own == robots.end()) throw std::runtime_error("its robot is not there");
-    robot_ = (*own)->config();
-    world_ = simulation->world().another();  // a copy without moving bodies and other robots
-    region_ = region(seat);
-    for (int i = 0; i < (settings_.threads > 1 ? settings_.threads + 1 : 1); ++i) {
-      containers_.emplace_back();
-      devices_.push_back(fillContainer(containers_.back(), robot_, factory_));
+    // A copy of the world, without moving bodies and other robots.
+    learner_ =
+        std::make_unique<TableLearner>(simulation->world().another(), (*own)->config(), settings_);
+    if (learner_->leftOut() > 0.0) {
+      char text[32];
+      std::snprintf(text, sizeof text, "leaves out %.1f m^2", learner_->leftOut());
+      seat.say(text);
     }
-    learner_ = std::make_unique<Learner>(*world_, region_, devices_.front(),
-                                         std::span(devices_).subspan(1), factory_, options());
-    for (const Learner::Need& need : learner_->needs())
+    for (const Learner::Need& need : learner_->learner().needs())
       seat.say("needs " + std::to_string(need.headings) + " headings for " + toText(need.feature));
   }
 
@@ -101,15 +92,14 @@ class LearnerPlayer : public Player {
     std::exception_ptr failure;
   };
 
-  LearnOptions options() const { return {settings_.cell, settings_.headingStep}; }
-
   void learn(const std::stop_token& stop) {
     State state;
     while (!stop.stop_requested() && !state.isOver) {
       try {
-        state.isOver = !learner_->step();
-        state.share = learner_->share();
-        state.pose = learner_->pose();
+        Learner& learner = learner_->learner();
+        state.isOver = !learner.step();
+        state.share = learner.share();
+        state.pose = learner.pose();
       } catch (...) {
         state.failure = std::current_exception();
         state.isOver = true;
@@ -118,16 +108,6 @@ class LearnerPlayer : public Player {
       state_ = state;
     }
     changed_.notify_all();
-  }
-
-  FieldRegion region(PlayerSeat& seat) const {
-    LearnArea area = learnAreaOf(*world_, settings_.cell, sizeOf(robot_), settings_.area);
-    if (area.leftOut > 0.0) {
-      char text[32];
-      std::snprintf(text, sizeof text, "leaves out %.1f m^2", area.leftOut);
-      seat.say(text);
-    }
-    return std::move(area.region);
   }
 
   /// Sends the progress to its team.
@@ -150,26 +130,20 @@ class LearnerPlayer : public Player {
   }
 
   void save(PlayerSeat& seat) {
-    const TableInfo info = tableInfoOf(*world_, robot_, region_, options());
-    const std::uintmax_t bytes = writeTables(settings_.out, containers_.front(), info);
+    const std::uintmax_t bytes = learner_->write(out_);
+    const FieldRegion& region = learner_->region();
     const auto count = [](const std::vector<std::uint8_t>& mask) {
       return std::to_string(std::count_if(mask.begin(), mask.end(), [](auto m) { return m != 0; }));
     };
     seat.say("wrote " + std::to_string(bytes) +
-             " bytes: " + std::to_string(learner_->needs().size()) + " features, " +
-             std::to_string(region_.grid.columns) + " x " + std::to_string(region_.grid.rows) +
-             " cells, " + count(region_.open) + " open, " + count(region_.standable) +
-             " standable");
+             " bytes: " + std::to_string(learner_->learner().needs().size()) + " features, " +
+             std::to_string(region.grid.columns) + " x " + std::to_string(region.grid.rows) +
+             " cells, " + count(region.open) + " open, " + count(region.standable) + " standable");
   }
 
-  Settings settings_;
-  PluginFactory factory_{PluginFactory::standardFolders()};
-  RobotConfig robot_;
-  std::unique_ptr<SimWorld> world_;
-  FieldRegion region_;
-  std::list<SensorContainer> containers_;  ///< containers of all rigs; the first one learns
-  std::vector<std::vector<Device>> devices_;
-  std::unique_ptr<Learner> learner_;
+  std::filesystem::path out_;
+  TableLearner::Settings settings_;
+  std::unique_ptr<TableLearner> learner_;
   int told_ = -1;
   std::mutex mutex_;  ///< guards state_
   std::condition_variable changed_;

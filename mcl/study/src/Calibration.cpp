@@ -1,10 +1,11 @@
-#include "Calibration.hpp"
+#include "ortung/study/Calibration.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-namespace ortung::app {
+namespace ortung {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -58,4 +59,12 @@ Calibration calibrationOf(std::vector<Claim> claims) {
   return result;
 }
 
-}  // namespace ortung::app
+Calibration qualityCalibration(const std::vector<EvaluationPoint>& points) {
+  constexpr double kRight = 0.5;  // [m], as in PoseEstimate::quality
+  std::vector<Claim> claims;
+  for (const EvaluationPoint& p : points)
+    claims.push_back({static_cast<float>(p.quality), p.positionError < kRight});
+  return calibrationOf(std::move(claims));
+}
+
+}  // namespace ortung

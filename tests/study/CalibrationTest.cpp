@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "Calibration.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/study/Calibration.hpp"
 
-namespace ortung::app {
+namespace ortung {
 namespace {
 
 TEST(Calibration, ClaimsThatComeTrueAsOftenAsTheySayAreCalibrated) {
@@ -51,4 +51,4 @@ TEST(Calibration, OneIsInTheLastBinAndNothingIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace ortung::app
+}  // namespace ortung

@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-namespace ortung::app {
+#include "ortung/base/Export.hpp"
+#include "ortung/study/Evaluation.hpp"
+
+namespace ortung {
 
 /// A probability that was claimed, and whether the event happened.
 struct Claim {
@@ -30,6 +33,9 @@ struct Calibration {
 };
 
 /// Computes the calibration of claims.
-Calibration calibrationOf(std::vector<Claim> claims);
+ORTUNG_API Calibration calibrationOf(std::vector<Claim> claims);
 
-}  // namespace ortung::app
+/// Computes the calibration of the filter's probability that the position error is below 0.5 m.
+ORTUNG_API Calibration qualityCalibration(const std::vector<EvaluationPoint>& points);
+
+}  // namespace ortung
