@@ -48,6 +48,8 @@ test=(
   libdlib-dev libblas-dev
   # tests
   libgtest-dev librapidcheck-dev python3 python3-numpy
+  # pictures of the Python package
+  python3-matplotlib
   # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
   chromium
 )

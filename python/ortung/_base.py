@@ -5,6 +5,8 @@ import os
 
 import numpy as np
 
+from . import _compiled
+
 try:
     import gymnasium
     from gymnasium.spaces import Box
@@ -154,19 +156,10 @@ if AutoresetMode is None:
         DISABLED = "Disabled"
 
 
-# Debian 12's packages of the libraries that the simulator links. They are not part of this package.
-SIMULATOR_PACKAGES = ("libembree3-3", "libbox2d2", "libboost-iostreams1.74.0", "libpng16-16", "libyaml-cpp0.7")
-
-
 def learning():
     """Returns the module of environments. It is loaded on first use, since it needs the simulator's
     libraries, without which the rest of the package works."""
-    try:
-        from . import _learning
-    except ImportError as error:
-        raise ImportError(f"environments need the libraries of the simulator, on Debian 12: "
-                          f"apt-get install {' '.join(SIMULATOR_PACKAGES)} ({error})") from error
-    return _learning
+    return _compiled("_learning")
 
 
 def describe(env_id):

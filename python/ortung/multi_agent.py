@@ -27,9 +27,11 @@ class ParallelEnv(ZooParallelEnv):
         self._is_seeded = False
 
     def observation_space(self, agent):
+        """Returns the space of an agent's observations."""
         return self.observation_spaces[agent]
 
     def action_space(self, agent):
+        """Returns the space of an agent's actions."""
         return self.action_spaces[agent]
 
     def _need_open(self):
@@ -45,6 +47,7 @@ class ParallelEnv(ZooParallelEnv):
         return {a: {"seed": seed, "number": number} for a in self.possible_agents}
 
     def reset(self, seed=None, options=None):
+        """Begins an episode; returns observations and infos by agent."""
         self._need_open()
         seed = check_seed(self.id, seed)
         if options is not None and not isinstance(options, dict):
@@ -59,6 +62,7 @@ class ParallelEnv(ZooParallelEnv):
         return self._observations(), self._infos()
 
     def step(self, actions):
+        """Acts; returns observations, rewards, terminations, truncations and infos by agent."""
         self._need_open()
         if not self.agents:
             raise RuntimeError(f"{self.id} must be reset before it is stepped"
@@ -87,9 +91,11 @@ class ParallelEnv(ZooParallelEnv):
         return self._batch.states[0].copy()
 
     def render(self):
+        """Raises NotImplementedError: there are no pictures."""
         raise NotImplementedError("environments can't be rendered")
 
     def close(self):
+        """Gives the episode up; nothing can be called afterwards."""
         self._batch = None
         self.agents = []
 

@@ -53,6 +53,7 @@ class Env(GymEnv):
         return {"seed": int(self._seeds[0]), "number": int(self._numbers[0])}
 
     def reset(self, *, seed=None, options=None):
+        """Begins an episode; returns its first observation, and info with its seed and number."""
         self._need_open()
         seed = check_seed(self.id, seed)
         options = _check_reset_options(self.id, options)
@@ -71,6 +72,7 @@ class Env(GymEnv):
         return self._observation.copy(), self._info()
 
     def step(self, action):
+        """Acts; returns observation, reward, terminated, truncated and info."""
         self._need_open()
         if not self._is_running:
             raise RuntimeError(f"{self.id} must be reset before it is stepped"
@@ -90,6 +92,7 @@ class Env(GymEnv):
         return self._batch.states[0].copy()
 
     def close(self):
+        """Gives the episode up; nothing can be called afterwards."""
         self._batch = None
         self._is_running = False
 
@@ -152,6 +155,7 @@ class VectorEnv(GymVectorEnv):
         return seeds
 
     def reset(self, *, seed=None, options=None):
+        """Begins episodes: all, or those of options["reset_mask"]; returns observations and infos."""
         self._need_open()
         options = _check_reset_options(self.id, options)
         mask = self._mask(options)
@@ -180,6 +184,7 @@ class VectorEnv(GymVectorEnv):
                 "number": batch.numbers.copy(), "_number": everywhere.copy()}
 
     def step(self, actions):
+        """Acts in all; returns observations, rewards, terminated, truncated, (N, ...), and infos."""
         self._need_open()
         if not self._is_seeded:
             raise RuntimeError(f"{self.id} must be reset before it is stepped")
@@ -207,6 +212,7 @@ class VectorEnv(GymVectorEnv):
         return self._out(self._batch.states)
 
     def close_extras(self, **kwargs):
+        """Gives the episodes up; close() calls it."""
         self._batch = None
 
 

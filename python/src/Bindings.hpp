@@ -8,6 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "ortung/base/Pose2.hpp"
+#include "ortung/tables/FieldRegion.hpp"
+
 namespace ortung::python {
 
 namespace py = pybind11;
@@ -16,6 +19,11 @@ void bindLearning(py::module_& module);
 void bindContainer(py::module_& module);
 void bindRobots(py::module_& module);
 void bindLocalization(py::module_& module);
+void bindRecords(py::module_& module);
+void bindEvaluation(py::module_& module);
+void bindWorlds(py::module_& module);
+void bindLearner(py::module_& module);
+void bindSimulations(py::module_& module);
 
 /// A view that is to be read only.
 inline py::array readOnly(py::array array) {
@@ -36,6 +44,15 @@ py::array tableOf(py::ssize_t rows, py::ssize_t columns, const Row& row) {
     for (const double value : row(i)) *out++ = value;
   return all;
 }
+
+/// x, x, y, y of a grid's edges [m], as pictures want it.
+inline py::tuple extentOf(const FieldGrid& grid) {
+  return py::make_tuple(grid.originX, grid.originX + grid.columns * grid.cell, grid.originY,
+                        grid.originY + grid.rows * grid.cell);
+}
+
+/// A pose as three numbers.
+inline py::tuple tupleOf(const Pose2& pose) { return py::make_tuple(pose.x, pose.y, pose.theta); }
 
 /// What Python prints of an object.
 inline std::string textOf(const py::handle& object) {

@@ -1,11 +1,13 @@
 // Containers: readings, what they learn, and how probable they are.
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "Bindings.hpp"
+#include "OwnSensor.hpp"
 #include "Robots.hpp"
 #include "Values.hpp"
 #include "ortung/formats/ScalarData.hpp"
@@ -129,6 +131,20 @@ void addScalar(const Container& self, const std::string& feature, double maxRang
   alone(*self.gate, [&] { self.container->add(std::move(data)); });
 }
 
+void addSensor(const Container& self, const std::string& feature, const py::object& sensor,
+               std::size_t values) {
+  auto data = makeOwnSensor(feature, sensor, values);
+  alone(*self.gate, [&] { self.container->add(std::move(data)); });
+}
+
+std::string reprOf(const Container& self) {
+  const Gate::Together visit(*self.gate);
+  std::string names;
+  for (const auto& one : self.container->all())
+    names += (names.empty() ? "" : ", ") + toText(one->id());
+  return "SensorContainer(" + (names.empty() ? "no features" : names) + ")";
+}
+
 FieldRegion makeRegion(int columns, int rows, double cell, double x, double y) {
   FieldRegion region{{x, y, cell, columns, rows}, {}, {}, 0.0};
   if (columns > 0 && rows > 0) {
@@ -137,6 +153,19 @@ FieldRegion makeRegion(int columns, int rows, double cell, double x, double y) {
   }
   region.check();
   return region;
+}
+
+std::string reprOf(const FieldRegion& region) {
+  char text[120];
+  std::snprintf(text, sizeof text, "FieldRegion(columns=%d, rows=%d, cell=%g, x=%g, y=%g)",
+                region.grid.columns, region.grid.rows, region.grid.cell, region.grid.originX,
+                region.grid.originY);
+  return text;
+}
+
+py::array maskOf(const FieldGrid& grid, const std::vector<std::uint8_t>& mask) {
+  return copyOf(mask).view("bool").reshape(
+      {static_cast<py::ssize_t>(grid.rows), static_cast<py::ssize_t>(grid.columns)});
 }
 
 py::object centresOf(const FieldRegion& region) {
@@ -151,14 +180,15 @@ using PyContainer = py::class_<Container>;
 /// What features read.
 void bindReadings(PyContainer& container) {
   container
-      .def_property_readonly("features",
-                             [](const Container& self) {
-                               const Gate::Together visit(*self.gate);
-                               std::vector<std::string> all;
-                               for (const auto& one : self.container->all())
-                                 all.push_back(toText(one->id()));
-                               return all;
-                             })
+      .def_property_readonly(
+          "features",
+          [](const Container& self) {
+            const Gate::Together visit(*self.gate);
+            std::vector<std::string> all;
+            for (const auto& one : self.container->all()) all.push_back(toText(one->id()));
+            return all;
+          },
+          "The names of all features, in the order of the robot file.")
       .def(
           "get",
           [](const Container& self, const std::string& query) {
@@ -231,9 +261,19 @@ void bindModels(PyContainer& container) {
           "probability",
           [](const Container& self, double x, double y, double theta) {
             const Look look(self);
-            return self.container->getProbability(Pose2{x, y, theta});
+            const double p = self.container->getProbability(Pose2{x, y, theta});
+            raiseFailures(*self.container);
+            return p;
           },
-          py::arg("x"), py::arg("y"), py::arg("theta"), "p(s|l) of all readings at a pose.");
+          py::arg("x"), py::arg("y"), py::arg("theta"), "p(s|l) of all readings at a pose.")
+      .def("add_sensor", &addSensor, py::arg("feature"), py::arg("sensor"), py::arg("values") = 1,
+           "A feature of so many numbers that a Python object knows how to weigh. Poses go to it "
+           "as (N, 3): x, y, heading, readings as (values,). It has `probability(reading, poses)`, "
+           "p in [0, 1] for each pose, (N,); or `expected(poses)`, what it should read at each, "
+           "(N, values), NaN where nothing is expected, and the standard deviation `sigma`; "
+           "`is_angle` (False) says whether these are angles. `outliers` (0.05) is p where nothing "
+           "fits. With `learn(pose, reading)` it learns from learn_values(). It must not use this "
+           "container.");
 }
 
 }  // namespace
@@ -243,15 +283,32 @@ void bindContainer(py::module_& module) {
                           "The part of the plane that is learned: cells [m] from a lower left "
                           "corner on, all of them open.")
       .def(py::init(&makeRegion), py::arg("columns"), py::arg("rows"), py::arg("cell"),
-           py::arg("x") = 0.0, py::arg("y") = 0.0)
-      .def_property_readonly("centres", &centresOf, "Of the cells, (N, 2), row by row [m].");
+           py::arg("x") = 0.0, py::arg("y") = 0.0,
+           "Makes columns x rows cells with edges of `cell` [m]; x, y [m] are the lower left "
+           "corner.")
+      .def_property_readonly("centres", &centresOf, "Of the cells, (N, 2), row by row [m].")
+      .def_property_readonly(
+          "open", [](const FieldRegion& self) { return maskOf(self.grid, self.open); },
+          "Whether a cell's centre is inside nothing solid, (rows, columns), from the lower left "
+          "corner.")
+      .def_property_readonly(
+          "standable", [](const FieldRegion& self) { return maskOf(self.grid, self.standable); },
+          "Whether the robot has room with its centre there, (rows, columns).")
+      .def_property_readonly(
+          "cell", [](const FieldRegion& self) { return self.grid.cell; }, "Edge of a cell [m].")
+      .def_property_readonly(
+          "extent", [](const FieldRegion& self) { return extentOf(self.grid); },
+          "x, x, y, y of its edges [m].")
+      .def("__repr__", [](const FieldRegion& self) { return reprOf(self); });
   PyContainer container(module, "SensorContainer",
                         "A robot's newest readings. Features are named 'model/type/feature'; '*' "
                         "stands for any.");
   container.def(py::init([] {
-    const auto own = std::make_shared<SensorContainer>();
-    return Container{own, own.get(), containerGate()};
-  }));
+                  const auto own = std::make_shared<SensorContainer>();
+                  return Container{own, own.get(), containerGate()};
+                }),
+                "Makes an empty container.");
+  container.def("__repr__", [](const Container& self) { return reprOf(self); });
   bindReadings(container);
   bindModels(container);
 }

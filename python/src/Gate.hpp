@@ -99,9 +99,10 @@ void leave(std::unique_ptr<T>& object) {
 /// What was opened before a fork reads from the same files as the process that opened it.
 class OpenedHere {
  public:
+  bool isHere() const { return process_ == ::getpid(); }
   /// @throws std::runtime_error in another process. @param what "these readings"
   void check(const std::string& what) const {
-    if (process_ != ::getpid())
+    if (!isHere())
       throw std::runtime_error(what + " were opened before this process was forked, and both " +
                                "would read from the same place; open them here");
   }

@@ -136,15 +136,26 @@ using PyBatch = py::class_<SharedBatch>;
 
 /// Arrays that show what is in the batch, without copies.
 void bindArrays(PyBatch& batch) {
-  batch.def_property_readonly("observations", array<float>(&Batch::observations, true, 1))
-      .def_property_readonly("final_observations", array<float>(&Batch::finalObservations, true, 1))
-      .def_property_readonly("rewards", array<double>(&Batch::rewards, true, 0))
-      .def_property_readonly("terminated", array<bool>(&Batch::terminated, false, 0))
-      .def_property_readonly("truncated", array<bool>(&Batch::truncated, false, 0))
-      .def_property_readonly("endings", array<std::uint8_t>(&Batch::endings, false, 0))
-      .def_property_readonly("seeds", array<std::uint64_t>(&Batch::seeds, false, 0))
-      .def_property_readonly("numbers", array<std::uint64_t>(&Batch::numbers, false, 0))
-      .def_property_readonly("states", array<float>(&Batch::states, false, 12));
+  batch
+      .def_property_readonly("observations", array<float>(&Batch::observations, true, 1),
+                             "What the agents see, (N, agents, observation).")
+      .def_property_readonly(
+          "final_observations", array<float>(&Batch::finalObservations, true, 1),
+          "What they saw at the end of episodes that were reset in the same step.")
+      .def_property_readonly("rewards", array<double>(&Batch::rewards, true, 0),
+                             "Of the last step, (N, agents).")
+      .def_property_readonly("terminated", array<bool>(&Batch::terminated, false, 0),
+                             "Whether the episode has ended, (N,).")
+      .def_property_readonly("truncated", array<bool>(&Batch::truncated, false, 0),
+                             "Whether its time is over, (N,).")
+      .def_property_readonly("endings", array<std::uint8_t>(&Batch::endings, false, 0),
+                             "How it ended, see ending_name(), (N,).")
+      .def_property_readonly("seeds", array<std::uint64_t>(&Batch::seeds, false, 0),
+                             "The seeds of the episodes, (N,).")
+      .def_property_readonly("numbers", array<std::uint64_t>(&Batch::numbers, false, 0),
+                             "Their numbers among those of their seed, (N,).")
+      .def_property_readonly("states", array<float>(&Batch::states, false, 12),
+                             "The worlds as they are, (N, 12).");
 }
 
 /// N episodes of one environment, stepped together.
@@ -163,21 +174,24 @@ void bindBatch(py::module_& module) {
              return made;
            }),
            py::arg("id"), py::arg("options") = py::dict(), py::arg("episodes") = 1,
-           py::arg("threads") = 1, py::arg("autoreset") = Autoreset::kNextStep, py::arg("seed") = 1)
-      .def("step", &step, py::arg("actions"), "actions: (N, agents, action), float")
+           py::arg("threads") = 1, py::arg("autoreset") = Autoreset::kNextStep, py::arg("seed") = 1,
+           "Makes the episodes of an environment; place i has the seed seed + i.")
+      .def("step", &step, py::arg("actions"),
+           "Acts in all episodes; actions: (N, agents, action), numbers in [-1, 1].")
       .def(
           "reset",
           [](SharedBatch& self, const std::optional<std::vector<std::uint64_t>>& seeds) {
             alone(self.gate, [&] { seeds ? self.batch->reset(*seeds) : self.batch->reset(); });
           },
-          py::arg("seeds") = py::none())
+          py::arg("seeds") = py::none(),
+          "Begins all episodes anew: those of these seeds, (N,), or the next of each seed.")
       .def(
           "reset_one",
           [](SharedBatch& self, std::size_t episode, std::optional<std::uint64_t> seed) {
             if (episode >= self.batch->size()) throw py::index_error("there is no such episode");
             alone(self.gate, [&] { self.batch->reset(episode, seed); });
           },
-          py::arg("episode"), py::arg("seed") = py::none())
+          py::arg("episode"), py::arg("seed") = py::none(), "Begins one episode anew.")
       .def(
           "set_options",
           [](SharedBatch& self, const py::dict& options, std::optional<std::size_t> episode) {
@@ -191,17 +205,24 @@ void bindBatch(py::module_& module) {
             });
           },
           py::arg("options"), py::arg("episode") = py::none(),
-          "Of episodes that begin from now on.")
+          "Changes options of episodes that begin from now on, or of one of them.")
       .def("__len__", [](const SharedBatch& self) { return self.batch->size(); })
-      .def_property_readonly("id", [](const SharedBatch& self) { return self.batch->info().id; })
-      .def_property_readonly("autoreset",
-                             [](const SharedBatch& self) { return self.batch->autoreset(); });
+      .def_property_readonly(
+          "id", [](const SharedBatch& self) { return self.batch->info().id; },
+          "The environment's id.")
+      .def_property_readonly(
+          "autoreset", [](const SharedBatch& self) { return self.batch->autoreset(); },
+          "When episodes that have ended begin anew.")
+      .def("__repr__", [](const SharedBatch& self) {
+        return "Batch('" + self.batch->info().id +
+               "', episodes=" + std::to_string(self.batch->size()) + ")";
+      });
   bindArrays(bound);
 }
 }  // namespace
 
 void bindLearning(py::module_& module) {
-  py::enum_<Autoreset>(module, "Autoreset")
+  py::enum_<Autoreset>(module, "Autoreset", "When an episode that has ended begins anew.")
       .value("NEXT_STEP", Autoreset::kNextStep)
       .value("SAME_STEP", Autoreset::kSameStep)
       .value("DISABLED", Autoreset::kDisabled);
@@ -223,7 +244,7 @@ void bindLearning(py::module_& module) {
         if (ending < 0 || ending > 4) throw py::value_error("there is no ending of this number");
         return std::string(learning::nameOf(static_cast<learning::Ending>(ending)));
       },
-      py::arg("ending"), "Of a number in Batch.endings; 0: the episode goes on.");
+      py::arg("ending"), "The name of a number in Batch.endings; 0: the episode goes on.");
 
   bindBatch(module);
 }

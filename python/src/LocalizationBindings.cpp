@@ -9,9 +9,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "Bindings.hpp"
+#include "OwnSensor.hpp"
 #include "Robots.hpp"
+#include "Starts.hpp"
 #include "ortung/run/FieldMaps.hpp"
 #include "ortung/run/Localization.hpp"
 
@@ -26,6 +29,8 @@ struct SharedLocalization {
   Gate gate{"this Localization"};
   std::shared_ptr<Gate> containerGate = python::containerGate();
   OpenedHere opened;
+  /// The present samples, as views share them; null: not asked for since the belief changed.
+  std::shared_ptr<const SampleSet> samples;
 
   ~SharedLocalization() {
     if (gate.isBroken() || containerGate->isBroken()) leave(localization);
@@ -33,13 +38,31 @@ struct SharedLocalization {
 };
 using Shared = std::shared_ptr<SharedLocalization>;
 
-/// Calls work(Localization&) alone, without Python's lock. No feature is added meanwhile.
+/// Calls work(Localization&) alone, without Python's lock. No feature is added meanwhile. What a
+/// sensor of Python raised in it is raised here.
 template <class Work>
-decltype(auto) visit(SharedLocalization& self, const Work& work) {
+auto visit(SharedLocalization& self, const Work& work) {
   const Gate::Alone alone(self.gate);
   const Gate::Together together(*self.containerGate);
-  const py::gil_scoped_release others;
-  return work(*self.localization);
+  const auto call = [&] {
+    const py::gil_scoped_release others;
+    return work(*self.localization);
+  };
+  if constexpr (std::is_void_v<decltype(call())>) {
+    call();
+    raiseFailures(self.localization->container());
+  } else {
+    auto result = call();
+    raiseFailures(self.localization->container());
+    return result;
+  }
+}
+
+/// The same of what may change the belief: views of the samples that there were stay as they are.
+template <class Work>
+auto change(SharedLocalization& self, const Work& work) {
+  self.samples.reset();
+  return visit(self, work);
 }
 
 std::string reprOf(const PoseEstimate& e) {
@@ -47,21 +70,6 @@ std::string reprOf(const PoseEstimate& e) {
   std::snprintf(text, sizeof text, "PoseEstimate(x=%.3f, y=%.3f, theta=%.4f, status='%s')",
                 e.pose.x, e.pose.y, e.pose.theta, nameOf(e.status));
   return text;
-}
-
-LocalizationStart startOf(const py::object& start) {
-  LocalizationStart result;
-  if (py::isinstance<py::str>(start)) {
-    const auto kind = py::cast<std::string>(start);
-    if (kind == "truth") result.kind = LocalizationStart::Kind::kTruth;
-    if (kind != "truth" && kind != "global")
-      throw py::value_error("start is '" + kind + "', expected 'global', 'truth' or (x, y, theta)");
-    return result;
-  }
-  const auto pose = py::cast<std::array<double, 3>>(start);
-  result.kind = LocalizationStart::Kind::kPose;
-  result.pose = {pose[0], pose[1], wrapAngle(pose[2])};
-  return result;
 }
 
 Shared open(const std::filesystem::path& robot, const std::filesystem::path& tables,
@@ -82,8 +90,35 @@ Shared open(const std::filesystem::path& robot, const std::filesystem::path& tab
   return made;
 }
 
+/// The samples as they are now: taken once a belief, for all views of it.
+std::shared_ptr<const SampleSet> samplesOf(SharedLocalization& self) {
+  if (!self.samples)
+    self.samples = visit(self, [](Localization& one) {
+      return std::make_shared<const SampleSet>(one.mcl().samples());
+    });
+  return self.samples;
+}
+
+py::dict sampleViews(SharedLocalization& self) {
+  const std::shared_ptr<const SampleSet> samples = samplesOf(self);
+  const auto* const kept = new std::shared_ptr<const SampleSet>(samples);
+  const py::capsule owner(
+      kept, [](void* one) { delete static_cast<const std::shared_ptr<const SampleSet>*>(one); });
+  const auto view = [&](const std::vector<float>& numbers) {
+    return readOnly(
+        py::array_t<float>(static_cast<py::ssize_t>(numbers.size()), numbers.data(), owner));
+  };
+  py::dict views;
+  views["x"] = view(samples->x);
+  views["y"] = view(samples->y);
+  views["theta"] = view(samples->theta);
+  views["log_weight"] = view(samples->logWeight);
+  return views;
+}
+
 py::array particlesOf(SharedLocalization& self) {
-  const SampleSet samples = visit(self, [](Localization& one) { return one.mcl().samples(); });
+  const std::shared_ptr<const SampleSet> shared = samplesOf(self);
+  const SampleSet& samples = *shared;
   const auto n = static_cast<py::ssize_t>(samples.x.size());
   py::array_t<float> all({n, py::ssize_t{4}});
   auto out = all.mutable_unchecked<2>();
@@ -123,11 +158,12 @@ Weighers chosenWeighers(Localization& self, const std::optional<std::vector<std:
 
 py::array probability(SharedLocalization& self,
                       const std::optional<std::vector<std::string>>& features,
-                      std::optional<std::vector<double>> headings) {
+                      std::optional<std::vector<double>> headings, bool isLog) {
   const FieldRegion& region = self.localization->robot().tables.region;
   const std::vector<double> values = visit(self, [&](Localization& one) {
     const Weighers weighers = chosenWeighers(one, features, headings);
-    return probabilityMap(region, weighers, *headings);
+    return isLog ? logProbabilityMap(region, weighers, *headings)
+                 : probabilityMap(region, weighers, *headings);
   });
   return mapOf(region.grid, values);
 }
@@ -144,31 +180,45 @@ py::array expectation(SharedLocalization& self, const std::string& feature, std:
   return mapOf(region.grid, values);
 }
 
-py::tuple extentOf(const SharedLocalization& self) {
-  const FieldGrid& grid = self.localization->robot().tables.region.grid;
-  return py::make_tuple(grid.originX, grid.originX + grid.columns * grid.cell, grid.originY,
-                        grid.originY + grid.rows * grid.cell);
+std::string reprOf(SharedLocalization& self) {
+  return visit(self, [](Localization& one) {
+    const PoseEstimate& e = one.mcl().estimate();
+    char text[160];
+    std::snprintf(text, sizeof text, ", samples=%zu, x=%.3f, y=%.3f, theta=%.4f, status='%s')",
+                  one.mcl().samples().size(), e.pose.x, e.pose.y, e.pose.theta, nameOf(e.status));
+    return "Localization('" + one.robot().config.name + "' in '" + one.robot().tables.world + "'" +
+           text;
+  });
 }
 
 std::optional<PoseEstimate> nextEstimate(SharedLocalization& self) {
   if (self.hasSource) self.opened.check("the readings of this Localization");
-  return visit(self, [](Localization& one) { return one.next(); });
+  return change(self, [](Localization& one) { return one.next(); });
 }
 
 void bindEstimate(py::module_& module) {
   py::class_<PoseEstimate>(module, "PoseEstimate", "Where the robot is, in the field frame.")
-      .def_readonly("stamp", &PoseEstimate::stamp, "[us]")
-      .def_property_readonly("x", [](const PoseEstimate& e) { return e.pose.x; })
-      .def_property_readonly("y", [](const PoseEstimate& e) { return e.pose.y; })
-      .def_property_readonly("theta", [](const PoseEstimate& e) { return e.pose.theta; })
+      .def_readonly("stamp", &PoseEstimate::stamp, "Its time [us].")
+      .def_property_readonly(
+          "x", [](const PoseEstimate& e) { return e.pose.x; }, "x in the field [m].")
+      .def_property_readonly(
+          "y", [](const PoseEstimate& e) { return e.pose.y; }, "y in the field [m].")
+      .def_property_readonly(
+          "theta", [](const PoseEstimate& e) { return e.pose.theta; },
+          "Heading [rad], in (-pi, pi].")
       .def_property_readonly(
           "covariance",
           [](const PoseEstimate& e) {
             return copyOf(std::vector<double>(e.covariance.begin(), e.covariance.end()))
                 .reshape({3, 3});
-          })
-      .def_property_readonly("status", [](const PoseEstimate& e) { return nameOf(e.status); })
-      .def_property_readonly("reason", [](const PoseEstimate& e) { return nameOf(e.reason); })
+          },
+          "(3, 3) of x, y, theta, in the field frame [m, rad].")
+      .def_property_readonly(
+          "status", [](const PoseEstimate& e) { return nameOf(e.status); },
+          "'tracking', 'uncertain' or 'lost'.")
+      .def_property_readonly(
+          "reason", [](const PoseEstimate& e) { return nameOf(e.reason); },
+          "Why the status is not better.")
       .def_readonly("quality", &PoseEstimate::quality,
                     "probability that the position error is below 0.5 m")
       .def_property_readonly(
@@ -189,7 +239,7 @@ void bindEstimate(py::module_& module) {
       .def_property_readonly(
           "relocalization", [](const PoseEstimate& e) { return nameOf(e.relocalization); },
           "why it did so last")
-      .def("__repr__", &reprOf);
+      .def("__repr__", [](const PoseEstimate& self) { return reprOf(self); });
 }
 
 }  // namespace
@@ -202,16 +252,20 @@ void bindLocalization(py::module_& module) {
       "its container and call update().")
       .def(py::init(&open), py::arg("robot"), py::arg("tables"), py::arg("source") = "",
            py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
-           py::arg("start") = "global")
-      .def_property_readonly("container",
-                             [](const Shared& self) {
-                               return Container{self, &self->localization->container(),
-                                                self->containerGate};
-                             })
+           py::arg("start") = "global",
+           "Opens a robot file and its tables. source: 'KIND:PATH?key=value', or '' if the program "
+           "sets readings; particles, threads: None for what the robot file says; start: 'global', "
+           "'truth' (the source's first ground truth) or a pose (x, y, theta) [m, rad].")
+      .def_property_readonly(
+          "container",
+          [](const Shared& self) {
+            return Container{self, &self->localization->container(), self->containerGate};
+          },
+          "The features of the robot with their newest readings.")
       .def(
           "update",
           [](SharedLocalization& self) {
-            return visit(self, [](Localization& one) { return one.update(); });
+            return change(self, [](Localization& one) { return one.update(); });
           },
           "The new estimate if readings have weighed the belief, or None.")
       .def(
@@ -226,23 +280,41 @@ void bindLocalization(py::module_& module) {
              double sigmaHeading) {
             const double p = sigmaPosition * sigmaPosition;
             const PoseCovariance covariance{p, 0, 0, 0, p, 0, 0, 0, sigmaHeading * sigmaHeading};
-            visit(self, [&](Localization& one) { one.setPose({x, y, theta}, covariance); });
+            change(self, [&](Localization& one) { one.setPose({x, y, theta}, covariance); });
           },
           py::arg("x"), py::arg("y"), py::arg("theta"), py::arg("sigma_position") = 0.3,
-          py::arg("sigma_heading") = 0.17)
-      .def("relocalize",
-           [](SharedLocalization& self) {
-             visit(self, [](Localization& one) { one.relocalize(); });
-           })
-      .def_property_readonly("particles", &particlesOf, "(n, 4): x, y, heading, weight")
+          py::arg("sigma_heading") = 0.17,
+          "Sets the belief to a pose in the field that is known now [m, rad], with standard "
+          "deviations; odometry carries it on. ValueError where the robot can't stand.")
+      .def(
+          "relocalize",
+          [](SharedLocalization& self) {
+            change(self, [](Localization& one) { one.relocalize(); });
+          },
+          "Forgets the place: the present readings, or else the next ones, find it anew.")
+      .def_property_readonly("particles", &particlesOf,
+                             "A copy of the samples, (n, 4): x, y [m], heading [rad], weight; "
+                             "weights have the sum 1.")
+      .def_property_readonly(
+          "samples", &sampleViews,
+          "Views of the samples by name: x, y [m], theta [rad], not wrapped, and log_weight, up to "
+          "a constant, (n,) each, to be read only. All calls until the belief changes give the "
+          "same memory, and views that are kept keep what they show.")
       .def(
           "probability_map", &probability, py::arg("features") = py::none(),
-          py::arg("headings") = py::none(),
+          py::arg("headings") = py::none(), py::arg("log") = false,
           "p(s|l) of the present readings, (rows, columns) from the lower left corner: the best of "
-          "the headings for each cell; NaN where a cell is not open.")
+          "the headings [rad] for each cell; NaN where a cell is not open. With log=True ln p, "
+          "also where p is too small for a number.")
       .def("expectation_map", &expectation, py::arg("feature"), py::arg("index") = 0,
            py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
-      .def_property_readonly("extent", &extentOf, "x, x, y, y of the maps' edges [m]")
+      .def_property_readonly(
+          "extent",
+          [](const SharedLocalization& self) {
+            return extentOf(self.localization->robot().tables.region.grid);
+          },
+          "x, x, y, y of the maps' edges [m].")
+      .def("__repr__", [](SharedLocalization& self) { return reprOf(self); })
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", [](SharedLocalization& self) {
         const std::optional<PoseEstimate> estimate = nextEstimate(self);

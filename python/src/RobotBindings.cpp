@@ -1,13 +1,16 @@
 // Robots, tables and records.
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "Bindings.hpp"
 #include "Robots.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/core/ShippedFiles.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/run/OpenSource.hpp"
 #include "ortung/tables/TableFile.hpp"
 
@@ -36,12 +39,36 @@ struct SharedRobot {
   std::shared_ptr<Gate> gate = containerGate();
 };
 
+/// The whole field of view that a format tells [rad], or None.
+py::object viewOf(const Format& format) {
+  double opening = std::nan("");
+  if (format.name() == formats::kScan)
+    opening = format.number("step_deg") * (format.number("beams") - 1.0);
+  if (format.name() == formats::kCone) opening = format.number("opening_deg");
+  return std::isnan(opening) ? py::object(py::none()) : py::float_(radians(std::abs(opening)));
+}
+
+py::dict sensorsOf(const SharedRobot& self) {
+  const Gate::Together visit(*self.gate);
+  py::dict all;
+  for (const auto& one : self.robot->container.all()) {
+    const Format format = one->format();
+    if (format.name() == formats::kOdometry || format.name() == formats::kPose) continue;
+    py::dict sensor;
+    sensor["mount"] = tupleOf(one->mount());
+    sensor["fov"] = viewOf(format);
+    all[py::str(toText(one->id()))] = sensor;
+  }
+  return all;
+}
+
 /// A source whose readings Python goes through.
 struct Readings {
   std::unique_ptr<PluginFactory> factory;
   std::unique_ptr<Source> source;
   Gate gate{"these Readings"};
   OpenedHere opened;
+  std::string name;
 
   ~Readings() {
     if (!gate.isBroken()) return;
@@ -66,33 +93,60 @@ void bindRobots(py::module_& module) {
                        const std::optional<std::filesystem::path>& tables) {
              return SharedRobot{tables ? openRobot(robot, *tables) : openRobot(robot)};
            }),
-           py::arg("robot"), py::arg("tables") = py::none())
-      .def_property_readonly("name",
-                             [](const SharedRobot& self) { return self.robot->config.name; })
-      .def_property_readonly("container", [](const SharedRobot& self) {
-        return Container{self.robot, &self.robot->container, self.gate};
-      });
+           py::arg("robot"), py::arg("tables") = py::none(),
+           "Reads a robot file, and the tables with which its features can weigh.")
+      .def_property_readonly(
+          "name", [](const SharedRobot& self) { return self.robot->config.name; }, "Its name.")
+      .def_property_readonly(
+          "radius", [](const SharedRobot& self) { return self.robot->config.radius; },
+          "Of the circle around its origin that its body fills [m].")
+      .def_property_readonly("sensors", &sensorsOf,
+                             "Where each feature's sensor sits: mount (x, y [m], heading [rad]) in "
+                             "the robot's frame and fov, its whole field of view [rad], or None. "
+                             "Odometry and ground truth are not among them.")
+      .def("__repr__",
+           [](const SharedRobot& self) {
+             return "Robot('" + self.robot->config.name + "', " +
+                    std::to_string(self.robot->container.all().size()) + " features)";
+           })
+      .def_property_readonly(
+          "container",
+          [](const SharedRobot& self) {
+            return Container{self.robot, &self.robot->container, self.gate};
+          },
+          "Its features with their newest readings.");
   py::class_<TableFile, std::shared_ptr<TableFile>>(module, "Tables",
                                                     "A table file, mapped: arrays are no copies.")
       .def(py::init(
                [](const std::filesystem::path& file) { return std::make_shared<TableFile>(file); }),
-           py::arg("file"))
-      .def_property_readonly("arrays", &arraysOf)
-      .def_property_readonly("meta", [](const TableFile& self) {
-        return py::module_::import("json").attr("loads")(self.text("meta.json"));
+           py::arg("file"), "Maps a file of `ortung learn`.")
+      .def_property_readonly("arrays", &arraysOf,
+                             "All arrays by name, to be read only; numpy.load reads the same.")
+      .def_property_readonly(
+          "meta",
+          [](const TableFile& self) {
+            return py::module_::import("json").attr("loads")(self.text("meta.json"));
+          },
+          "What the file says of itself: world, robot, features, cells.")
+      .def("__repr__", [](const TableFile& self) {
+        return "Tables('" + self.path().string() + "', " + std::to_string(self.arrays().size()) +
+               " arrays)";
       });
   py::class_<Readings>(module, "Readings",
                        "Goes through (stamp [us], 'model/type/feature', words) of any source.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &nextReading)
-      .def_property_readonly("world",
-                             [](Readings& self) {
-                               return alone(self.gate,
-                                            [&] { return self.source->worldFingerprint(); });
-                             })
-      .def_property_readonly("remark", [](Readings& self) {
-        return alone(self.gate, [&] { return self.source->remark(); });
-      });
+      .def_property_readonly(
+          "world",
+          [](Readings& self) {
+            return alone(self.gate, [&] { return self.source->worldFingerprint(); });
+          },
+          "The fingerprint of the world that they come from, or ''.")
+      .def_property_readonly(
+          "remark",
+          [](Readings& self) { return alone(self.gate, [&] { return self.source->remark(); }); },
+          "What the user should know at the end, e.g. that a record is torn, or ''.")
+      .def("__repr__", [](const Readings& self) { return "Readings('" + self.name + "')"; });
   module.def(
       "shipped_file", &shippedFile, py::arg("kind"), py::arg("file"),
       "The path of a map that ships with Ortung, e.g. ('robots', 'pioneer.toml'); a file that "
@@ -101,6 +155,7 @@ void bindRobots(py::module_& module) {
       "readings",
       [](const std::string& source, const std::filesystem::path& robot) {
         auto readings = std::make_unique<Readings>();
+        readings->name = source;
         readings->factory = std::make_unique<PluginFactory>(PluginFactory::standardFolders());
         readings->source = openSource(source, robot, *readings->factory);
         return readings;

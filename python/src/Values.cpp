@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "OwnSensor.hpp"
 #include "ortung/core/ReadingAs.hpp"
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/ConeData.hpp"
@@ -63,6 +64,7 @@ class Values {
     return !std::isnan((*this)[0]);
   }
 
+  const double* data() const { return numbers_.data(); }
   double length(std::size_t i) const { return within(i, 0.0, kMostMetres, "metres, not negative"); }
   double place(std::size_t i) const { return within(i, -kMostSigned, kMostSigned, "metres"); }
   double angle(std::size_t i) const { return within(i, -kMostRadians, kMostRadians, "radians"); }
@@ -149,6 +151,7 @@ py::object table(const List& list, py::ssize_t columns, const Row& row) {
 
 py::object readingOf(const SensorData& data) {
   if (data.sequence() == 0) return py::none();
+  if (const std::vector<double>* numbers = numbersOf(data)) return copyOf(*numbers);
   if (const auto scan = readingAs<ScanData>(data)) return copyOf(scan->ranges);
   if (const auto pose = readingAs<PoseData>(data))
     return numbersOf({pose->x, pose->y, pose->theta});
@@ -196,6 +199,10 @@ std::vector<std::uint32_t> encode(const SensorData& data, const py::handle& give
   if (name == ConeData::kFormat) {
     values.need(1, "a range [m]");
     return {ConeData::encode(values.range(0), ConeData::configOf(data.format()).maxRange)};
+  }
+  if (const std::vector<double>* numbers = numbersOf(data)) {
+    values.need(numbers->size(), "the numbers of the sensor");
+    return wordsOfNumbers(values.data(), values.size());
   }
   throw py::value_error(toText(data.id()) + ": readings of the format " + name +
                         " are no numbers in metres and radians; set() takes its words, see help()");

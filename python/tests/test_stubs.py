@@ -116,7 +116,7 @@ class Stubs(unittest.TestCase):
     maxDiff = None
 
     def test_of_what_is_compiled(self):
-        for name in ("_core", "_learning"):
+        for name in ("_core", "_learning", "_sim"):
             with self.subTest(name):
                 module = importlib.import_module(f"ortung.{name}")
                 self.assertEqual(describe_stub(ast.parse((FOLDER / f"{name}.pyi").read_text()).body),

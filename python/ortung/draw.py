@@ -1,0 +1,121 @@
+"""Pictures by Matplotlib (Debian's python3-matplotlib), one call each: world(), robot(), map(), run().
+
+Each draws into `axes`, or into those of a new figure, in the field's frame [m], and returns the axes; `axes.figure`
+is what savefig() belongs to. Matplotlib is loaded with the first picture.
+"""
+import numpy as np
+
+__all__ = ["map", "robot", "run", "world"]
+
+_STATUS_COLOURS = {"tracking": "tab:green", "uncertain": "tab:orange", "lost": "tab:red"}
+
+
+def _axes(axes):
+    """Returns the axes to draw in, with both coordinates in one scale."""
+    if axes is None:
+        try:
+            from matplotlib import pyplot
+        except ImportError as error:
+            raise ImportError(f"pictures need Matplotlib, on Debian: apt-get install python3-matplotlib ({error})") from error
+        _, axes = pyplot.subplots(layout="constrained")
+    axes.set_aspect("equal")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    return axes
+
+
+def world(world, axes=None):
+    """Draws a World, or the file of one: walls, bodies, painted lines and landmarks."""
+    from . import World
+
+    world = world if isinstance(world, World) else World(world)
+    axes = _axes(axes)
+    for line in world.lines:
+        axes.plot(*line["points"].T, color="lightgrey", linewidth=1.0, zorder=1)
+    for thing in world.objects:
+        for outline in thing["outlines"]:
+            axes.fill(*outline.T, facecolor="0.6", edgecolor="0.2", linewidth=0.6, zorder=2)
+    for x0, y0, x1, y1, _, _ in world.walls:
+        axes.plot((x0, x1), (y0, y1), color="black", linewidth=1.0, zorder=2)
+    if world.landmarks:
+        axes.plot(*np.array([mark["position"][:2] for mark in world.landmarks]).T, "d", color="tab:purple",
+                  markersize=5, zorder=3, label="landmarks")
+    left, right, low, high = world.extent
+    margin = 0.02 * max(right - left, high - low)
+    axes.set_xlim(left - margin, right + margin)
+    axes.set_ylim(low - margin, high + margin)
+    axes.set_title(world.name)
+    return axes
+
+
+def _arrow(axes, pose, length, **style):
+    x, y, heading = pose
+    axes.annotate("", (x + length * np.cos(heading), y + length * np.sin(heading)), (x, y),
+                  arrowprops={"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0, **style})
+
+
+def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
+    """Draws a Robot at a pose (x, y, heading) [m, rad]: its body, and where each sensor sits and looks.
+
+    reach: length of the drawn fields of view [m]; None: three times the robot's radius."""
+    axes = _axes(axes)
+    x, y, heading = pose
+    radius = robot.radius
+    reach = 3.0 * radius if reach is None else reach
+    turn = np.linspace(0.0, 2.0 * np.pi, 60)
+    axes.fill(x + radius * np.cos(turn), y + radius * np.sin(turn), facecolor="lightsteelblue", edgecolor="black",
+              zorder=3)
+    _arrow(axes, pose, radius, color="black")
+    shown = set()
+    for feature, sensor in robot.sensors.items():
+        mount_x, mount_y, turned = sensor["mount"]
+        at = np.array([x + mount_x * np.cos(heading) - mount_y * np.sin(heading),
+                       y + mount_x * np.sin(heading) + mount_y * np.cos(heading)])
+        device = feature.rpartition("/")[0]  # whose features sit at one place
+        if device in shown:
+            continue
+        colour = f"C{len(shown) % 10}"
+        shown.add(device)
+        axes.plot(*at, "o", color=colour, markersize=4, zorder=5, label=device)
+        if sensor["fov"]:
+            rays = heading + turned + np.linspace(-0.5, 0.5, 40) * sensor["fov"]
+            edge = at + reach * np.column_stack([np.cos(rays), np.sin(rays)])
+            axes.fill(*np.vstack([at, edge]).T, facecolor=colour, alpha=0.15, zorder=2)
+    if shown:
+        axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0.0, 1.05))
+    axes.set_title(robot.name, loc="right")
+    return axes
+
+
+def map(localization, features=None, *, log=False, headings=None, pose=None, axes=None):
+    """Draws p(s|l) of a Localization's present readings, as its probability_map(), with the samples.
+
+    pose: (x, y, heading) that is marked, e.g. the truth [m, rad]."""
+    axes = _axes(axes)
+    chart = localization.probability_map(features, headings, log)
+    picture = axes.imshow(chart, origin="lower", extent=localization.extent, cmap="viridis", interpolation="nearest")
+    axes.figure.colorbar(picture, ax=axes, label="ln p(s|l)" if log else "p(s|l)")
+    samples = localization.samples
+    axes.plot(samples["x"], samples["y"], ".", color="white", markersize=1.0, alpha=0.5)
+    if pose is not None:
+        axes.plot(pose[0], pose[1], "o", markerfacecolor="none", markeredgecolor="red", markersize=10)
+        _arrow(axes, pose, 0.05 * (localization.extent[1] - localization.extent[0]), color="red")
+    return axes
+
+
+def run(run, world=None, axes=None):
+    """Draws an EvaluatedRun: the true way, and the estimates in the colour of their status.
+
+    world: a World, or the file of one, that is drawn below."""
+    from . import draw
+
+    axes = _axes(axes) if world is None else draw.world(world, axes)
+    axes.plot(*run.truth[:, :2].T, color="black", linewidth=1.2, zorder=4, label="truth")
+    status = run.status
+    for name, colour in _STATUS_COLOURS.items():
+        chosen = status == name
+        if chosen.any():
+            axes.plot(*run.estimates[chosen, :2].T, ".", color=colour, markersize=3, zorder=5, label=name)
+    axes.legend(fontsize="small")
+    axes.set_title(f"{run.robot} in {run.world}: {run.figures['position_rmse_m']:.3f} m RMS")
+    return axes
