@@ -82,8 +82,8 @@ def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
             edge = at + reach * np.column_stack([np.cos(rays), np.sin(rays)])
             axes.fill(*np.vstack([at, edge]).T, facecolor=colour, alpha=0.15, zorder=2)
     if shown:
-        axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0.0, 1.05))
-    axes.set_title(robot.name, loc="right")
+        axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    axes.set_title(robot.name)
     return axes
 
 

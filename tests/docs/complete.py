@@ -76,8 +76,9 @@ def missing(ortung, root):
             if not re.search(rf"\b{name}\b", python):
                 yield f"'{name}' of {stub.relative_to(root)} is in neither docs/python.md nor docs/learning.md"
     figures = pages.codes(["docs/mcl.md"])
-    report = "".join((root / "app/report" / name).read_text() for name in ("RunResult.cpp", "ManyRuns.cpp"))
-    for name in sorted(set(re.findall(r'\{"([a-z_0-9]+)", |json\["([a-z_0-9]+)"\]', report))):
+    sources = ("app/report/RunResult.cpp", "app/report/ManyRuns.cpp", "mcl/study/src/Figures.cpp")
+    report = "".join((root / name).read_text() for name in sources)
+    for name in sorted(set(re.findall(r'\{"([a-z_0-9]+)", |json\["([a-z_0-9]+)"\]|count\("([a-z_0-9]+)"', report))):
         name = "".join(name)
         if not re.search(rf"\b{name}\b", figures):
             yield f"the figure '{name}' of an evaluation is not in docs/mcl.md"
