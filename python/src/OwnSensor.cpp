@@ -193,9 +193,9 @@ class OwnWeigher final : public Weigher {
 };
 
 /// The feature of such a sensor.
-class OwnData final : public SensorData {
+class OwnFeature final : public SensorData {
  public:
-  OwnData(SensorId id, std::shared_ptr<PythonSensor> sensor)
+  OwnFeature(SensorId id, std::shared_ptr<PythonSensor> sensor)
       : SensorData(std::move(id)), sensor_(std::move(sensor)), reading_(sensor_->count()) {}
 
   PythonSensor& sensor() const { return *sensor_; }
@@ -249,8 +249,8 @@ std::unique_ptr<SensorData> makeOwnSensor(const std::string& feature, const py::
   if (count < 1 || count > kMostNumbers)
     throw py::value_error(feature + ": values is " + std::to_string(count) +
                           ", expected 1 to 100000");
-  auto data = std::make_unique<OwnData>(parseSensorId(feature),
-                                        std::make_shared<PythonSensor>(feature, sensor, count));
+  auto data = std::make_unique<OwnFeature>(parseSensorId(feature),
+                                           std::make_shared<PythonSensor>(feature, sensor, count));
   if (!data->sensor().learns()) {  // it knows all from the start
     const FieldRegion nowhere{{0.0, 0.0, 1.0, 1, 1}, {1}, {1}, 0.0};
     data->beginLearning(nowhere, 2.0 * M_PI);
@@ -261,11 +261,11 @@ std::unique_ptr<SensorData> makeOwnSensor(const std::string& feature, const py::
 
 void raiseFailures(const SensorContainer& container) {
   for (const auto& one : container.all())
-    if (const auto* own = dynamic_cast<const OwnData*>(one.get())) own->sensor().raise();
+    if (const auto* own = dynamic_cast<const OwnFeature*>(one.get())) own->sensor().raise();
 }
 
 const std::vector<double>* numbersOf(const SensorData& data) {
-  const auto* own = dynamic_cast<const OwnData*>(&data);
+  const auto* own = dynamic_cast<const OwnFeature*>(&data);
   return own == nullptr ? nullptr : &own->reading();
 }
 
