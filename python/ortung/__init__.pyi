@@ -1,3 +1,4 @@
+from . import draw as draw
 from ._core import (
     ConfigError as ConfigError,
     EvaluatedRun as EvaluatedRun,

@@ -242,14 +242,45 @@ void bindEstimate(py::module_& module) {
       .def("__repr__", [](const PoseEstimate& self) { return reprOf(self); });
 }
 
+using PyLocalization = py::class_<SharedLocalization, Shared>;
+
+/// The belief as arrays, and maps of what readings say.
+void bindArrays(PyLocalization& bound) {
+  bound
+      .def_property_readonly("particles", &particlesOf,
+                             "A copy of the samples, (n, 4): x, y [m], heading [rad], weight; "
+                             "weights have the sum 1.")
+      .def_property_readonly(
+          "samples", &sampleViews,
+          "Views of the samples by name: x, y [m], theta [rad], not wrapped, and log_weight, up to "
+          "a constant, (n,) each, to be read only. All calls until the belief changes give the "
+          "same memory, and views that are kept keep what they show.")
+      .def(
+          "probability_map", &probability, py::arg("features") = py::none(),
+          py::arg("headings") = py::none(), py::arg("log") = false,
+          "p(s|l) of the present readings, (rows, columns) from the lower left corner: the best of "
+          "the headings [rad] for each cell; NaN where a cell is not open. With log=True ln p, "
+          "also where p is too small for a number.")
+      .def("expectation_map", &expectation, py::arg("feature"), py::arg("index") = 0,
+           py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
+      .def_property_readonly(
+          "extent",
+          [](const SharedLocalization& self) {
+            return extentOf(self.localization->robot().tables.region.grid);
+          },
+          "x, x, y, y of the maps' edges [m].")
+      .def("__repr__", [](SharedLocalization& self) { return reprOf(self); });
+}
+
 }  // namespace
 
 void bindLocalization(py::module_& module) {
   bindEstimate(module);
-  py::class_<SharedLocalization, Shared>(
+  PyLocalization bound(
       module, "Localization",
       "Where one robot is, by MCL: go through its estimates if it has a source, or set readings of "
-      "its container and call update().")
+      "its container and call update().");
+  bound
       .def(py::init(&open), py::arg("robot"), py::arg("tables"), py::arg("source") = "",
            py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
            py::arg("start") = "global",
@@ -292,35 +323,13 @@ void bindLocalization(py::module_& module) {
             change(self, [](Localization& one) { one.relocalize(); });
           },
           "Forgets the place: the present readings, or else the next ones, find it anew.")
-      .def_property_readonly("particles", &particlesOf,
-                             "A copy of the samples, (n, 4): x, y [m], heading [rad], weight; "
-                             "weights have the sum 1.")
-      .def_property_readonly(
-          "samples", &sampleViews,
-          "Views of the samples by name: x, y [m], theta [rad], not wrapped, and log_weight, up to "
-          "a constant, (n,) each, to be read only. All calls until the belief changes give the "
-          "same memory, and views that are kept keep what they show.")
-      .def(
-          "probability_map", &probability, py::arg("features") = py::none(),
-          py::arg("headings") = py::none(), py::arg("log") = false,
-          "p(s|l) of the present readings, (rows, columns) from the lower left corner: the best of "
-          "the headings [rad] for each cell; NaN where a cell is not open. With log=True ln p, "
-          "also where p is too small for a number.")
-      .def("expectation_map", &expectation, py::arg("feature"), py::arg("index") = 0,
-           py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
-      .def_property_readonly(
-          "extent",
-          [](const SharedLocalization& self) {
-            return extentOf(self.localization->robot().tables.region.grid);
-          },
-          "x, x, y, y of the maps' edges [m].")
-      .def("__repr__", [](SharedLocalization& self) { return reprOf(self); })
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", [](SharedLocalization& self) {
         const std::optional<PoseEstimate> estimate = nextEstimate(self);
         if (!estimate) throw py::stop_iteration();
         return *estimate;
       });
+  bindArrays(bound);
 }
 
 }  // namespace ortung::python

@@ -85,6 +85,44 @@ py::tuple nextReading(Readings& readings) {
   return py::make_tuple(message.stamp, toText(message.id), copyOf(message.words));
 }
 
+void bindTables(py::module_& module) {
+  py::class_<TableFile, std::shared_ptr<TableFile>>(module, "Tables",
+                                                    "A table file, mapped: arrays are no copies.")
+      .def(py::init(
+               [](const std::filesystem::path& file) { return std::make_shared<TableFile>(file); }),
+           py::arg("file"), "Maps a file of `ortung learn`.")
+      .def_property_readonly("arrays", &arraysOf,
+                             "All arrays by name, to be read only; numpy.load reads the same.")
+      .def_property_readonly(
+          "meta",
+          [](const TableFile& self) {
+            return py::module_::import("json").attr("loads")(self.text("meta.json"));
+          },
+          "What the file says of itself: world, robot, features, cells.")
+      .def("__repr__", [](const TableFile& self) {
+        return "Tables('" + self.path().string() + "', " + std::to_string(self.arrays().size()) +
+               " arrays)";
+      });
+}
+
+void bindReadings(py::module_& module) {
+  py::class_<Readings>(module, "Readings",
+                       "Goes through (stamp [us], 'model/type/feature', words) of any source.")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", &nextReading)
+      .def_property_readonly(
+          "world",
+          [](Readings& self) {
+            return alone(self.gate, [&] { return self.source->worldFingerprint(); });
+          },
+          "The fingerprint of the world that they come from, or ''.")
+      .def_property_readonly(
+          "remark",
+          [](Readings& self) { return alone(self.gate, [&] { return self.source->remark(); }); },
+          "What the user should know at the end, e.g. that a record is torn, or ''.")
+      .def("__repr__", [](const Readings& self) { return "Readings('" + self.name + "')"; });
+}
+
 }  // namespace
 
 void bindRobots(py::module_& module) {
@@ -115,38 +153,8 @@ void bindRobots(py::module_& module) {
             return Container{self.robot, &self.robot->container, self.gate};
           },
           "Its features with their newest readings.");
-  py::class_<TableFile, std::shared_ptr<TableFile>>(module, "Tables",
-                                                    "A table file, mapped: arrays are no copies.")
-      .def(py::init(
-               [](const std::filesystem::path& file) { return std::make_shared<TableFile>(file); }),
-           py::arg("file"), "Maps a file of `ortung learn`.")
-      .def_property_readonly("arrays", &arraysOf,
-                             "All arrays by name, to be read only; numpy.load reads the same.")
-      .def_property_readonly(
-          "meta",
-          [](const TableFile& self) {
-            return py::module_::import("json").attr("loads")(self.text("meta.json"));
-          },
-          "What the file says of itself: world, robot, features, cells.")
-      .def("__repr__", [](const TableFile& self) {
-        return "Tables('" + self.path().string() + "', " + std::to_string(self.arrays().size()) +
-               " arrays)";
-      });
-  py::class_<Readings>(module, "Readings",
-                       "Goes through (stamp [us], 'model/type/feature', words) of any source.")
-      .def("__iter__", [](const py::object& self) { return self; })
-      .def("__next__", &nextReading)
-      .def_property_readonly(
-          "world",
-          [](Readings& self) {
-            return alone(self.gate, [&] { return self.source->worldFingerprint(); });
-          },
-          "The fingerprint of the world that they come from, or ''.")
-      .def_property_readonly(
-          "remark",
-          [](Readings& self) { return alone(self.gate, [&] { return self.source->remark(); }); },
-          "What the user should know at the end, e.g. that a record is torn, or ''.")
-      .def("__repr__", [](const Readings& self) { return "Readings('" + self.name + "')"; });
+  bindTables(module);
+  bindReadings(module);
   module.def(
       "shipped_file", &shippedFile, py::arg("kind"), py::arg("file"),
       "The path of a map that ships with Ortung, e.g. ('robots', 'pioneer.toml'); a file that "

@@ -123,7 +123,7 @@ class Stubs(unittest.TestCase):
                                  describe_module(module))
 
     def test_of_what_is_python(self):
-        for name in ("single_agent", "multi_agent"):
+        for name in ("draw", "single_agent", "multi_agent"):
             module = importlib.import_module(f"ortung.{name}")
             stub = describe_stub(ast.parse((FOLDER / f"{name}.pyi").read_text()).body)
             for one, found in describe_module(module).items():
@@ -140,7 +140,8 @@ class Stubs(unittest.TestCase):
 
     def test_of_the_package(self):
         tree = ast.parse((FOLDER / "__init__.pyi").read_text())
-        names = {one.asname for node in tree.body if isinstance(node, ast.ImportFrom) for one in node.names}
+        names = {one.asname for node in tree.body if isinstance(node, ast.ImportFrom) and node.module
+                 for one in node.names}
         self.assertEqual(sorted(names), sorted(ortung.__all__))
         for name in names:
             self.assertIsNotNone(getattr(ortung, name))
@@ -157,7 +158,10 @@ class Stubs(unittest.TestCase):
                              "for one in ortung.Localization('r.toml', 't.ortung', source='record:r', seed=3):\n"
                              "    x: float = one.x\n"
                              "a, b, c, d, e = ortung.make('goalkeeper-v0').step([0.5, 0.0])\n"
-                             "ortung.Robot('r.toml').container.set(1, 'a/b/c', [1])\n")
+                             "ortung.Robot('r.toml').container.set(1, 'a/b/c', [1])\n"
+                             "run = ortung.evaluate('record:r', 'r.toml', 't.ortung', progress=lambda share: None)\n"
+                             "ortung.draw.run(run, ortung.World('w.toml'))\n"
+                             "ortung.Simulation('w.toml').add_robot('r.toml', start=(0, 0, 0)).drive(0.3)\n")
             wrong.write_text("import ortung\n"
                              "ortung.Localization('r.toml')\n"
                              "ortung.Robot('r.toml').container.set('1', 'a/b/c', [1])\n"

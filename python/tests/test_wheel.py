@@ -71,10 +71,13 @@ class Wheel(unittest.TestCase):
             "--outdir", self.folder / "again", PROJECT, cwd=self.folder, PYTHONDONTWRITEBYTECODE="1")
         self.assertEqual((self.folder / "again" / self.wheel.name).stat().st_size, self.wheel.stat().st_size)
 
-    def test_the_first_program_of_the_page_is_that_of_the_readme(self):
-        page = (PROJECT / "docs" / "python.md").read_text()
-        first = re.search(r"```python\n(.*?)```", page, re.DOTALL)[1]
-        self.assertEqual(self.in_wheel(first), "p at x = 2.5 m: 1.000, at x = 1 m: 0.050\n")
+    def test_programs_of_the_page_need_nothing_else(self):
+        programs = re.findall(r"```python\n(.*?)```", (PROJECT / "docs" / "python.md").read_text(), re.DOTALL)
+        shortest = next(one for one in programs if "FieldRegion(" in one)
+        self.assertEqual(self.in_wheel(shortest), "p at x = 2.5 m: 1.000, at x = 1 m: 0.050\n")
+        whole = programs[0].replace('"maps/fields/arena.toml"', 'ortung.shipped_file("fields", "arena.toml")')
+        whole = whole.replace('"maps/robots/pioneer.toml"', 'ortung.shipped_file("robots", "pioneer.toml")')
+        self.assertRegex(self.in_wheel(whole), r"^EvaluatedRun\('record:run.rec', 14.9 s, position_rmse_m=0\.0")
 
     def test_robots_need_no_simulator(self):
         program = ("import ortung\n"
