@@ -276,9 +276,9 @@ class Worlds(unittest.TestCase):
             pathlib.Path(folder, "map.yaml").write_text("image: map.pgm\nresolution: 0.5\norigin: [-5, -2.5, 0]\nnegate: 0\n"
                                                         "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
             world = ortung.World(pathlib.Path(folder, "map.yaml"))
-            # A room of 20 x 10 cells of 0.5 m with a wall of one cell: 9 m x 4 m are free.
-            np.testing.assert_allclose(world.cast([(0, 0, 0), (0, 0, np.pi / 2)]), [4.5, 2.0], atol=1e-5)
-            np.testing.assert_allclose(np.abs(world.walls[:, :4]).max(), 4.5, atol=0.05)  # within a tenth of a cell
+            # A room of 20 x 10 cells of 0.5 m with a wall of one cell, whose surfaces are in the middle of its cells.
+            np.testing.assert_allclose(world.cast([(0, 0, 0), (0, 0, np.pi / 2)]), [4.75, 2.25], atol=1e-5)
+            np.testing.assert_allclose(np.abs(world.walls[:, :4]).max(), 4.75, atol=0.05)  # within a tenth of a cell
             learned = ortung.learn(pathlib.Path(folder, "map.yaml"), ROBOT, pathlib.Path(folder, "map.ortung"))
             self.assertEqual(learned["open"], 90 * 40)
 
