@@ -33,9 +33,10 @@ class PythonSensor {
     hasModel_ = true;
   }
   ~PythonSensor() {
-    const py::gil_scoped_acquire python;
-    sensor_ = py::object();
+    const PyGILState_STATE python = PyGILState_Ensure();
+    sensor_.release().dec_ref();
     failure_ = nullptr;
+    PyGILState_Release(python);
   }
   PythonSensor(const PythonSensor&) = delete;
   PythonSensor& operator=(const PythonSensor&) = delete;
