@@ -1,9 +1,12 @@
 // Records with a time line, as clients see them.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/TalkData.hpp"
 #include "ortung/records/RecordWriter.hpp"
@@ -160,6 +163,106 @@ TEST(Playback, ChangesNothingThatHasHappened) {
   for (const char* request : {"SEEK", "SEEK time_s=-1", "SEEK time_s=nan", "EVENTS since=x"})
     EXPECT_TRUE(client.ask(request).starts_with("ERR ")) << request;
   EXPECT_TRUE(client.ask("EVENTS since=9").starts_with("OK EVENTS next=10 lines=1"));
+}
+
+/// The lines of a reply.
+std::vector<std::string> linesOf(TestClient& client, const std::string& request) {
+  const std::string reply = client.ask(request);
+  EXPECT_TRUE(reply.starts_with("OK ")) << request << ": " << reply;
+  const std::string count = valueOf(reply, "lines");
+  std::vector<std::string> lines(count.empty() ? 0 : std::stoul(count));
+  for (std::string& line : lines) line = client.line();
+  return lines;
+}
+
+TEST(Playback, TellsWhatItHoldsAndReadingsOfAllOfIt) {
+  Playback two;
+  ServedPlayback world(two.config);
+  BoardConfig config = controlledConfig();
+  config.commands = playbackCommands(world);
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  EXPECT_EQ(linesOf(client, "CONTENTS robot=2"),
+            (std::vector<std::string>{
+                "reference/groundTruth/pose readings=101 first_us=0 last_us=10000000",
+                "counter/counter/cycle readings=11 first_us=0 last_us=10000000",
+                "mcl/LOCALIZATION/status readings=101 first_us=0 last_us=10000000",
+                "referee/referee/events readings=1 first_us=3000000 last_us=3000000"}));
+  const std::vector<std::string> counts = linesOf(client, "HISTORY robot=1 counter/*/*");
+  ASSERT_EQ(counts.size(), 11U) << "all there are, wherever the time line is";
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    EXPECT_EQ(counts[i],
+              std::to_string(i * 1'000'000) + " counter/counter/cycle 1 " + std::to_string(i));
+  const auto few = linesOf(client, "HISTORY robot=2 reference/*/* counter/*/* most=5");
+  std::vector<double> xs;
+  std::size_t others = 0;
+  for (const std::string& line : few) {
+    if (line.find("groundTruth") == line.npos)
+      ++others;
+    else
+      xs.push_back(metres(line, 0));
+  }
+  EXPECT_EQ(others, 5U);
+  ASSERT_EQ(xs.size(), 5U);
+  EXPECT_NEAR(xs.back(), 1.0, 6e-4) << "the last one is among them: -3 m and 4 s of 1 m/s";
+  EXPECT_EQ(linesOf(client, "HISTORY robot=1 no/such/feature").size(), 0U);
+  for (const char* request : {"HISTORY robot=1", "HISTORY robot=3 */*/*", "HISTORY robot=0 */*/*",
+                              "HISTORY robot=1 */*/* most=0", "HISTORY robot=1 */*/* most=1e9",
+                              "HISTORY robot=1 words", "CONTENTS robot=9", "CONTENTS robot=1 x=1"})
+    EXPECT_TRUE(client.ask(request).starts_with("ERR ")) << request;
+}
+
+TEST(Playback, HistoriesFitIntoAnAnswer) {
+  const TemporaryFolder folder;
+  const SensorId scan{"laser", "LRF", "scan"};
+  {
+    RecordWriter record(folder / "a.rec", "");
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      record.write({kBegin + i * 1000, kCount, {i}});
+      record.write({kBegin + i * 1000, scan, std::vector<std::uint32_t>(181, 100'000 + i)});
+      record.endMoment();
+    }
+    record.commit();
+  }
+  ServedPlayback world({.name = "one", .runs = {{folder / "a.rec", "a"}}});
+  BoardConfig config = controlledConfig();
+  config.commands = playbackCommands(world);
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  std::map<std::string, std::size_t> count;
+  std::size_t bytes = 0;
+  std::string last;
+  for (const std::string& line : linesOf(client, "HISTORY */*/*")) {
+    bytes += line.size() + 1;
+    ++count[line.find("LRF") == line.npos ? "counts" : "scans"];
+    last = line;
+  }
+  EXPECT_LE(bytes, 512U << 10);
+  EXPECT_GT(bytes, 256U << 10);
+  EXPECT_EQ(count["counts"], count["scans"]) << "none of the features is left out for another";
+  EXPECT_EQ(last.substr(0, 6), "999000");
+}
+
+TEST(Playback, WithoutTruthItsFieldIsWhereOdometryWas) {
+  const TemporaryFolder folder;
+  RecordWriter record(folder / "a.rec", "");
+  for (std::uint32_t i = 0; i <= 20; ++i) {
+    OdometryData::Reading reading;
+    reading.pose = {0.5 * i, -0.25 * i, 0.0};
+    record.write(
+        {kBegin + i * 100'000, {"odometry", "odometry", "pose"}, OdometryData::encode(reading)});
+    record.endMoment();
+  }
+  record.commit();
+  const ServedPlayback world({.name = "one", .runs = {{folder / "a.rec", "a"}}});
+  const auto bounds = world.describe().bounds;
+  ASSERT_TRUE(bounds);
+  EXPECT_NEAR(bounds->xMin, -5.0, 1e-9) << "what a scanner sees around it, too: 5 m";
+  EXPECT_NEAR(bounds->xMax, 15.0, 1e-9);
+  EXPECT_NEAR(bounds->yMin, -10.0, 1e-9);
+  EXPECT_NEAR(bounds->yMax, 5.0, 1e-9);
 }
 
 TEST(Playback, OfWhatIsNoRecordIsRefused) {

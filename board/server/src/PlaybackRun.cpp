@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "Request.hpp"
 #include "ortung/formats/ChangesData.hpp"
@@ -22,6 +24,8 @@ namespace {
 
 constexpr std::size_t kMostMarks = 10'000;
 constexpr std::size_t kMostFeatures = 1024;
+constexpr std::size_t kMostWordsOfALine = 8192;  // as in all lines, see docs/protocol.md
+constexpr std::size_t kMostWordsOfHistory = 4u << 20;
 constexpr std::uint64_t kBetweenProgress = 4096;  // readings
 // How far a seek reads back for what is in sight: scans come ten times a second, camera pictures at
 // least once.
@@ -29,6 +33,10 @@ constexpr Timestamp kBefore = 3'000'000;  // [us]
 // Robots do not drive faster than that: a faster one was carried.
 constexpr double kFastest = 10.0;  // [m/s]
 constexpr double kNoJump = 0.3;    // [m]
+constexpr double kMargin = 1.0;    // around true poses and estimates [m]
+constexpr double kInSight = 5.0;   // around poses of odometry, which no field is known for [m]
+const SensorId kEstimate{"mcl", "LOCALIZATION", "pose"};
+const SensorId kOdometry{"odometry", "odometry", "pose"};
 
 ServedFeature served(const SensorData& data) {
   return {data.id(), data.wordsHelp(), {}, data.format().toText()};
@@ -37,8 +45,8 @@ ServedFeature served(const SensorData& data) {
 /// Returns what is known of a feature from its name alone.
 ServedFeature featureOf(const SensorId& id) {
   if (id.type == "groundTruth") return served(PoseData(id));
-  if (id == SensorId{"odometry", "odometry", "pose"}) return served(OdometryData(id));
-  if (id == SensorId{"mcl", "LOCALIZATION", "pose"}) return served(PoseFixData(id, {}));
+  if (id == kOdometry) return served(OdometryData(id));
+  if (id == kEstimate) return served(PoseFixData(id, {}));
   if (id == SensorId{"mcl", "LOCALIZATION", "smooth"}) return served(PoseData(id));
   if (const TrackData track; track.id() == id) return served(track);
   if (const ProtectionData bound; bound.id() == id) return served(bound);
@@ -57,6 +65,34 @@ std::optional<Pose2> poseOf(const Message& message) {
     return std::nullopt;  // another format of the same type
   }
   return data.reading();
+}
+
+/// The pose that a reading of odometry or of a localization says.
+template <class Data>
+std::optional<Pose2> poseIn(Data data, const Message& message) {
+  try {
+    data.setData(message.stamp, message.words);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+  if constexpr (std::is_same_v<Data, PoseFixData>) {
+    if (data.reading().empty()) return std::nullopt;
+    return data.reading().front().pose;
+  } else {
+    return data.reading().pose;
+  }
+}
+
+void include(const Pose2& pose, std::optional<FieldBounds>& box) {
+  if (!box) box = {pose.x, pose.y, pose.x, pose.y};
+  *box = {std::min(box->xMin, pose.x), std::min(box->yMin, pose.y), std::max(box->xMax, pose.x),
+          std::max(box->yMax, pose.y)};
+}
+
+/// Whether reading @p i of @p count is one of at most @p most, evenly chosen, the last one among
+/// them.
+bool isChosen(std::uint64_t i, std::uint64_t count, std::size_t most) {
+  return count <= most || (i + 1) * most / count > i * most / count;
 }
 
 }  // namespace
@@ -96,9 +132,12 @@ void PlaybackRun::scan(const std::function<bool(double)>& progress) {
     if (count == 0) first_ = message.stamp;
     if (count % kBetweenProgress == 0 && progress && !progress(std::max(0.0, source.progress())))
       throw std::runtime_error(run_.record.string() + ": reading was given up");
-    placeOf(message.id);
+    const std::size_t place = placeOf(message.id);
     message.stamp -= first_;
     length_ = std::max(length_, message.stamp);
+    if (place == contents_.size()) contents_.push_back({message.id, 0, message.stamp, 0});
+    ++contents_[place].readings;
+    contents_[place].last = message.stamp;
     note(message);
   }
   if (features_.empty()) throw std::runtime_error(run_.record.string() + ": has no readings");
@@ -108,6 +147,7 @@ void PlaybackRun::note(const Message& message) {
   const std::string& format = features_[placeOf(message.id)].format;
   if (format.substr(0, format.find(' ')) == formats::kTrack) noteTrack(message);
   if (message.id.type == "groundTruth") noteTruth(message);
+  notePose(message);
   if (message.id.type == "referee") noteTalk(message);
 }
 
@@ -132,9 +172,7 @@ void PlaybackRun::noteTrack(const Message& message) {
 void PlaybackRun::noteTruth(const Message& message) {
   const auto pose = poseOf(message);
   if (!pose) return;
-  if (!bounds_) bounds_ = {pose->x, pose->y, pose->x, pose->y};
-  *bounds_ = {std::min(bounds_->xMin, pose->x), std::min(bounds_->yMin, pose->y),
-              std::max(bounds_->xMax, pose->x), std::max(bounds_->yMax, pose->y)};
+  include(*pose, truths_);
   if (lastTruth_) {
     const auto& [stamp, last] = *lastTruth_;
     const double way = std::hypot(pose->x - last.x, pose->y - last.y);
@@ -142,6 +180,53 @@ void PlaybackRun::noteTruth(const Message& message) {
       mark(message.stamp, "carried away");
   }
   lastTruth_ = {message.stamp, *pose};
+}
+
+void PlaybackRun::notePose(const Message& message) {
+  if (message.id == kEstimate) {
+    if (const auto pose = poseIn(PoseFixData(message.id, {}), message)) include(*pose, estimates_);
+  } else if (message.id == kOdometry) {
+    if (const auto pose = poseIn(OdometryData(message.id), message)) include(*pose, odometries_);
+  }
+}
+
+std::optional<FieldBounds> PlaybackRun::bounds() const {
+  const auto& box = truths_ ? truths_ : estimates_ ? estimates_ : odometries_;
+  if (!box) return std::nullopt;
+  const double margin = truths_ || estimates_ ? kMargin : kInSight;
+  return FieldBounds{box->xMin - margin, box->yMin - margin, box->xMax + margin,
+                     box->yMax + margin};
+}
+
+std::vector<Message> PlaybackRun::history(std::span<const SensorQuery> queries, std::size_t most,
+                                          const std::function<bool()>& goOn) const {
+  RecordSource source(run_.record);
+  std::vector<std::uint64_t> passed(features_.size(), 0);
+  std::vector<bool> isWanted;
+  for (const ServedFeature& feature : features_)
+    isWanted.push_back(std::any_of(queries.begin(), queries.end(), [&](const SensorQuery& query) {
+      return matches(query, feature.id);
+    }));
+  std::vector<Message> found;
+  std::size_t words = 0;
+  Message message;
+  for (std::uint64_t count = 0; source.next(message); ++count) {
+    if (count % kBetweenProgress == 0 && !goOn()) return {};
+    const auto place = std::find_if(features_.begin(), features_.end(),
+                                    [&](const auto& one) { return one.id == message.id; });
+    if (place == features_.end()) continue;  // the file has become longer since
+    const auto i = static_cast<std::size_t>(place - features_.begin());
+    if (!isWanted[i] || !isChosen(passed[i]++, contents_[i].readings, most)) continue;
+    if (message.words.size() > kMostWordsOfALine) continue;
+    words += message.words.size() + 1;
+    if (words > kMostWordsOfHistory)
+      throw ServeError("limit",
+                       "these readings are too many for one answer; ask for fewer features "
+                       "or fewer readings, most=N");
+    message.stamp -= first_;
+    found.push_back(std::move(message));
+  }
+  return found;
 }
 
 void PlaybackRun::noteTalk(const Message& message) {

@@ -4,10 +4,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ortung/base/Pose2.hpp"
+#include "ortung/core/SensorContainer.hpp"
 #include "ortung/formats/TrackStatus.hpp"
 #include "ortung/records/RecordSource.hpp"
 #include "ortung/server/ServedPlayback.hpp"
@@ -23,10 +25,17 @@ class PlaybackRun {
 
   const std::vector<ServedFeature>& features() const { return features_; }
   const std::vector<ServedPlayback::Mark>& marks() const { return marks_; }
-  const std::optional<FieldBounds>& bounds() const { return bounds_; }
+  const std::vector<ServedPlayback::Content>& contents() const { return contents_; }
+  /// Where the robot was, and what it may have seen: by the truth, or else by its localization, or
+  /// else by odometry.
+  std::optional<FieldBounds> bounds() const;
   const std::string& fingerprint() const { return fingerprint_; }
   Timestamp length() const { return length_; }
   const ServedPlayback::Run& run() const { return run_; }
+
+  /// As ServedPlayback::history().
+  std::vector<Message> history(std::span<const SensorQuery> queries, std::size_t most,
+                               const std::function<bool()>& goOn) const;
 
   /// Goes on to @p stamp, not included: newest() has what was new, the last one of each feature.
   void play(Timestamp stamp);
@@ -40,6 +49,7 @@ class PlaybackRun {
  private:
   void scan(const std::function<bool(double)>& progress);
   void note(const Message& message);
+  void notePose(const Message& message);
   void noteTrack(const Message& message);
   void noteTruth(const Message& message);
   void noteTalk(const Message& message);
@@ -51,7 +61,10 @@ class PlaybackRun {
   ServedPlayback::Run run_;
   std::vector<ServedFeature> features_;
   std::vector<ServedPlayback::Mark> marks_;
-  std::optional<FieldBounds> bounds_;
+  std::vector<ServedPlayback::Content> contents_;  ///< of features_, in their order
+  std::optional<FieldBounds> truths_;              ///< boxes around all poses of a kind
+  std::optional<FieldBounds> estimates_;
+  std::optional<FieldBounds> odometries_;
   std::string fingerprint_;
   Timestamp first_ = 0;  ///< stamp of the first reading in the record
   Timestamp length_ = 0;

@@ -1,10 +1,12 @@
 #include "ortung/server/ServedPlayback.hpp"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "PlaybackRun.hpp"
 #include "Request.hpp"
+#include "ortung/core/ReadingLine.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/server/CallArguments.hpp"
 
@@ -12,7 +14,9 @@ namespace ortung {
 namespace {
 
 constexpr std::size_t kMostRuns = 16;
-constexpr double kMargin = 1.0;  // around the poses, if the field's size is unknown [m]
+constexpr std::size_t kMostQueries = 64;
+constexpr std::int64_t kMostReadings = 5000;    // of a feature, in a history
+constexpr std::size_t kMostBytes = 512u << 10;  // of a history, as text
 const SensorId kRobots{"world", "truth", "robots"};
 
 [[noreturn]] void refuse() {
@@ -83,6 +87,18 @@ ServedPlayback::~ServedPlayback() = default;
 const std::vector<ServedPlayback::Mark>& ServedPlayback::marks() const { return parts_->marks; }
 Timestamp ServedPlayback::length() const { return parts_->length; }
 
+const std::vector<ServedPlayback::Content>& ServedPlayback::contents(RobotId robot) const {
+  return parts_->run(robot).contents();
+}
+
+std::vector<Message> ServedPlayback::history(RobotId robot, const std::vector<std::string>& queries,
+                                             std::size_t most,
+                                             const std::function<bool()>& goOn) const {
+  std::vector<SensorQuery> wanted;
+  for (const std::string& text : queries) wanted.push_back(parseSensorQuery(text));
+  return parts_->run(robot).history(wanted, most, goOn);
+}
+
 WorldDescription ServedPlayback::describe() const {
   const auto& runs = parts_->runs;
   WorldDescription world{parts_->config.name, runs.front()->fingerprint(), "record",
@@ -96,9 +112,6 @@ WorldDescription ServedPlayback::describe() const {
     world.bounds = {std::min(all.xMin, its.xMin), std::min(all.yMin, its.yMin),
                     std::max(all.xMax, its.xMax), std::max(all.yMax, its.yMax)};
   }
-  if (auto& bounds = world.bounds)
-    *bounds = {bounds->xMin - kMargin, bounds->yMin - kMargin, bounds->xMax + kMargin,
-               bounds->yMax + kMargin};
   return world;
 }
 
@@ -166,20 +179,84 @@ void ServedPlayback::reset(std::optional<std::uint64_t>) { seek(0); }
 void ServedPlayback::placeRobot(RobotId, const Pose2&) { refuse(); }
 void ServedPlayback::placeObject(const std::string&, const Pose2&) { refuse(); }
 
+namespace {
+
+using Call = BoardCommand::Call;
+using Reply = BoardCommand::Reply;
+
+Reply tellEvents(const ServedPlayback& playback, const Call& call) {
+  Reply reply;
+  const auto& marks = playback.marks();
+  for (std::size_t i = sinceOf(call); i < marks.size(); ++i)
+    reply.lines.push_back(std::to_string(i) + " " + std::to_string(marks[i].stamp) + " " +
+                          marks[i].text);
+  reply.words = "next=" + std::to_string(marks.size());
+  return reply;
+}
+
+RobotId takeRobot(CallArguments& arguments) {
+  return static_cast<RobotId>(arguments.takeInteger("robot", 1, kMostRuns).value_or(1));
+}
+
+Reply tellContents(const ServedPlayback& playback, const Call& call) {
+  CallArguments arguments("CONTENTS", call);
+  const RobotId robot = takeRobot(arguments);
+  arguments.refuseRest();
+  Reply reply{"robot=" + std::to_string(robot)};
+  for (const ServedPlayback::Content& one : playback.contents(robot))
+    reply.lines.push_back(toText(one.id) + " readings=" + std::to_string(one.readings) +
+                          " first_us=" + std::to_string(one.first) +
+                          " last_us=" + std::to_string(one.last));
+  return reply;
+}
+
+/// The readings as lines; if all together are too long for an answer, every so many of each
+/// feature, the last one among them.
+std::vector<std::string> linesOf(const std::vector<Message>& messages) {
+  std::vector<std::string> lines;
+  std::map<std::string, std::size_t> counts;
+  std::size_t bytes = 0;
+  for (const Message& message : messages) {
+    writeLine(message, lines.emplace_back());
+    bytes += lines.back().size() + 1;
+    ++counts[toText(message.id)];
+  }
+  const std::size_t step = (bytes + kMostBytes - 1) / kMostBytes;
+  if (step < 2) return lines;
+  std::vector<std::string> few;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (--counts[toText(messages[i].id)] % step == 0) few.push_back(std::move(lines[i]));
+  return few;
+}
+
+Reply tellHistory(const ServedPlayback& playback, const Call& call) {
+  CallArguments arguments("HISTORY", call);
+  const RobotId robot = takeRobot(arguments);
+  const std::vector<std::string> queries = arguments.takeWords();
+  const auto most = arguments.takeInteger("most", 1, kMostReadings).value_or(1000);
+  arguments.refuseRest();
+  if (queries.empty()) throw ServeError("syntax", "HISTORY needs features, MODEL/TYPE/FEATURE");
+  if (queries.size() > kMostQueries)
+    throw ServeError("limit", "a request has at most " + std::to_string(kMostQueries) + " queries");
+  return {
+      "robot=" + std::to_string(robot),
+      linesOf(playback.history(robot, queries, static_cast<std::size_t>(most), call.isAwaited))};
+}
+
+}  // namespace
+
 std::vector<BoardCommand> playbackCommands(const ServedPlayback& playback) {
-  BoardCommand events;
-  events.name = "EVENTS";
-  events.help = "[since=N]: what happened, from number N on";
-  events.handle = [&playback](const BoardCommand::Call& call) {
-    BoardCommand::Reply reply;
-    const auto& marks = playback.marks();
-    for (std::size_t i = sinceOf(call); i < marks.size(); ++i)
-      reply.lines.push_back(std::to_string(i) + " " + std::to_string(marks[i].stamp) + " " +
-                            marks[i].text);
-    reply.words = "next=" + std::to_string(marks.size());
-    return reply;
-  };
-  return {events};
+  return {{.name = "EVENTS",
+           .help = "[since=N]: what happened, from number N on",
+           .handle = [&playback](const Call& call) { return tellEvents(playback, call); }},
+          {.name = "CONTENTS",
+           .help = "[robot=N]: which features the record has, and how many readings of each",
+           .handle = [&playback](const Call& call) { return tellContents(playback, call); }},
+          {.name = "HISTORY",
+           .help = "[robot=N] MODEL/TYPE/FEATURE ... [most=1000]: readings of the whole record, "
+                   "evenly chosen",
+           .handle = [&playback](const Call& call) { return tellHistory(playback, call); },
+           .isSlow = true}};
 }
 
 }  // namespace ortung

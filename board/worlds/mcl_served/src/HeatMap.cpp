@@ -1,4 +1,4 @@
-#include "HeatMap.hpp"
+#include "ortung/mcl_served/HeatMap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,25 +41,39 @@ Weighers takeReadings(const Robot& robot, std::vector<const SensorData*>& featur
   return weighersOf(features);
 }
 
-std::optional<HeatMap> probability(const Robot& robot, std::vector<const SensorData*> features,
-                                   const HeatMapWish& wish, const std::function<bool()>& goOn) {
+/// Probabilities of a map that were computed; levels are made of them.
+struct Probabilities {
+  HeatMap map;                                             ///< but for its levels
+  std::vector<double> logs;                                ///< ln p of each cell
+  double best = -std::numeric_limits<double>::infinity();  ///< greatest of them
+};
+
+std::optional<Probabilities> probabilities(const Robot& robot,
+                                           std::vector<const SensorData*> features,
+                                           const HeatMapWish& wish,
+                                           const std::function<bool()>& goOn) {
   const FieldRegion region = coarsened(robot.tables.region, wish.mostCells);
-  HeatMap map{.grid = region.grid};
-  const Weighers readings = takeReadings(robot, features, map.stamp);
-  map.readings = readings.size();
+  Probabilities found{.map = {.grid = region.grid}, .logs = {}};
+  const Weighers readings = takeReadings(robot, features, found.map.stamp);
+  found.map.readings = readings.size();
   std::vector<double> headings{wish.heading.value_or(0.0)};
   if (!wish.heading && !readings.empty())
     headings = mapHeadings(robot.tables.headingStep, features);
-  std::vector<double> values =
-      logProbabilityMap(region, readings, headings, [&](double) { return goOn(); });
-  if (values.empty()) return std::nullopt;
-  // Levels compare with the best: p itself may be too small for a number.
-  double best = -std::numeric_limits<double>::infinity();
-  for (const double value : values) best = std::fmax(best, value);
-  for (double& value : values) value = wish.isLogarithmic ? value - best : std::exp(value - best);
+  found.logs = logProbabilityMap(region, readings, headings, [&](double) { return goOn(); });
+  if (found.logs.empty()) return std::nullopt;
+  for (const double value : found.logs) found.best = std::fmax(found.best, value);
+  return found;
+}
+
+/// Levels compare with the best: p itself may be too small for a number.
+HeatMap mapOf(const Probabilities& found, bool isLogarithmic) {
+  HeatMap map = found.map;
+  std::vector<double> values = found.logs;
+  for (double& value : values)
+    value = isLogarithmic ? value - found.best : std::exp(value - found.best);
   addLevels(values, map);
-  map.low = std::exp(best) * (wish.isLogarithmic ? std::exp(map.low) : map.low);
-  map.high = std::exp(best) * (wish.isLogarithmic ? std::exp(map.high) : map.high);
+  map.low = std::exp(found.best) * (isLogarithmic ? std::exp(map.low) : map.low);
+  map.high = std::exp(found.best) * (isLogarithmic ? std::exp(map.high) : map.high);
   return map;
 }
 
@@ -111,12 +125,22 @@ std::vector<const SensorData*> chosenFeatures(const Robot& robot,
 std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
                                const std::function<bool()>& goOn) {
   std::vector<const SensorData*> features = chosenFeatures(robot, wish.queries);
-  if (!wish.isExpectation) return probability(robot, std::move(features), wish, goOn);
+  if (!wish.isExpectation) {
+    const auto found = probabilities(robot, std::move(features), wish, goOn);
+    return found ? std::optional(mapOf(*found, wish.isLogarithmic)) : std::nullopt;
+  }
   if (features.size() != 1)
     throw ServeError("argument", "of=expectation is of one feature, found " +
                                      std::to_string(features.size()) +
                                      "; name it as MODEL/TYPE/FEATURE");
   return expectation(robot, *features.front(), wish, goOn);
+}
+
+std::optional<std::pair<HeatMap, HeatMap>> bothHeatMaps(const Robot& robot, const HeatMapWish& wish,
+                                                        const std::function<bool()>& goOn) {
+  const auto found = probabilities(robot, chosenFeatures(robot, wish.queries), wish, goOn);
+  if (!found) return std::nullopt;
+  return std::pair(mapOf(*found, false), mapOf(*found, true));
 }
 
 }  // namespace ortung

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "HeatMap.hpp"
 #include "NumberText.hpp"
-#include "Why.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/mcl_served/HeatMap.hpp"
+#include "ortung/mcl_served/Why.hpp"
 #include "ortung/server/CallArguments.hpp"
 
 namespace ortung {
@@ -20,7 +20,7 @@ constexpr std::size_t kMostQueries = 64;
 constexpr std::int64_t kMostCells = 250'000;
 constexpr std::int64_t kMostValue = 65'535;
 
-RobotId takeRobot(CallArguments& arguments, const Call& call, const LocalizedRobots& robots) {
+RobotId takeRobot(CallArguments& arguments, const Call& call, const PerceivingRobots& robots) {
   const auto named = arguments.takeInteger("robot", 1, kLastRobot);
   const auto robot = named ? std::optional(static_cast<RobotId>(*named)) : robots.usual();
   if (!robot) throw ServeError("no-robot", "robot=N is missing; LIST robots tells the numbers");
@@ -109,7 +109,7 @@ HeatMapWish takeWish(CallArguments& arguments) {
   return wish;
 }
 
-Reply showMap(const LocalizedRobots& robots, const Call& call) {
+Reply showMap(const PerceivingRobots& robots, const Call& call) {
   CallArguments arguments("HEATMAP", call);
   const RobotId robot = takeRobot(arguments, call, robots);
   const HeatMapWish wish = takeWish(arguments);
@@ -133,24 +133,39 @@ Reply showMap(const LocalizedRobots& robots, const Call& call) {
 
 // --- WHY
 
-Reply tellWhy(const LocalizedRobots& robots, const Call& call) {
+void addValues(const std::string& feature, const std::vector<ReadingValue>& values,
+               std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::string line = "value " + feature + " " + std::to_string(i) +
+                       (values[i].isAngle ? " unit=rad" : " unit=m");
+    if (values[i].measured) line += " measured=" + numberText(*values[i].measured);
+    if (values[i].expected) line += " expected=" + numberText(*values[i].expected);
+    lines.push_back(std::move(line));
+  }
+}
+
+Reply tellWhy(const PerceivingRobots& robots, const Call& call) {
   CallArguments arguments("WHY", call);
   const RobotId robot = takeRobot(arguments, call, robots);
   const std::optional<Pose2> pose = arguments.takePose();
   const std::vector<std::string> queries = takeQueries(arguments);
   arguments.refuseRest();
   if (!pose) throw ServeError("syntax", "WHY needs a pose, x_m=X y_m=Y theta_deg=T");
-  Why why = whyAt(*robots.perceiver(robot), queries, *pose);
-  return {"robot=" + std::to_string(robot) + " p=" + numberText(why.p), std::move(why.lines)};
+  const Why why = whyAt(*robots.perceiver(robot), queries, *pose);
+  Reply reply{"robot=" + std::to_string(robot) + " p=" + numberText(why.p)};
+  for (const Why::Feature& one : why.features) {
+    const std::string name = toText(one.id);
+    reply.lines.push_back(name + " p=" + numberText(one.p) +
+                          " values=" + std::to_string(one.values.size()));
+    addValues(name, one.values, reply.lines);
+  }
+  return reply;
 }
 
 }  // namespace
 
-std::vector<BoardCommand> localizationCommands(LocalizedRobots& robots) {
+std::vector<BoardCommand> perceptionCommands(const PerceivingRobots& robots) {
   return {
-      {.name = "LOCALIZE",
-       .help = "robot=N [on|off|anywhere] [x_m=X y_m=Y theta_deg=T [sigma_m=S sigma_deg=D]]",
-       .handle = [&robots](const Call& call) { return localize(robots, call); }},
       {.name = "HEATMAP",
        .help = "robot=N [MODEL/TYPE/FEATURE ...] [theta_deg=T] [of=probability|expectation] "
                "[index=I] [scale=linear|log] [cells=MOST], p of its readings all over the field",
@@ -162,6 +177,16 @@ std::vector<BoardCommand> localizationCommands(LocalizedRobots& robots) {
        .handle = [&robots](const Call& call) { return tellWhy(robots, call); },
        .isSlow = true,
        .isReplaceable = true}};
+}
+
+std::vector<BoardCommand> localizationCommands(LocalizedRobots& robots) {
+  std::vector<BoardCommand> commands = perceptionCommands(robots);
+  commands.insert(
+      commands.begin(),
+      {.name = "LOCALIZE",
+       .help = "robot=N [on|off|anywhere] [x_m=X y_m=Y theta_deg=T [sigma_m=S sigma_deg=D]]",
+       .handle = [&robots](const Call& call) { return localize(robots, call); }});
+  return commands;
 }
 
 }  // namespace ortung

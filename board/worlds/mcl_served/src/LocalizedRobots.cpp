@@ -4,6 +4,7 @@
 
 namespace ortung {
 
+PerceivingRobots::~PerceivingRobots() = default;
 LocalizedRobots::~LocalizedRobots() = default;
 
 const char* nameOf(LocalizationState::Kind kind) {

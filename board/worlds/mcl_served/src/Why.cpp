@@ -1,10 +1,9 @@
-#include "Why.hpp"
+#include "ortung/mcl_served/Why.hpp"
 
 #include <cmath>
+#include <utility>
 
-#include "HeatMap.hpp"
-#include "NumberText.hpp"
-#include "ortung/run/ReadingValues.hpp"
+#include "ortung/mcl_served/HeatMap.hpp"
 
 namespace ortung {
 namespace {
@@ -17,17 +16,6 @@ struct Asked {
   std::shared_ptr<const Weigher> weigher;
   std::vector<ReadingValue> values;
 };
-
-void addValues(const std::string& feature, const std::vector<ReadingValue>& values,
-               std::vector<std::string>& lines) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::string line = "value " + feature + " " + std::to_string(i) +
-                       (values[i].isAngle ? " unit=rad" : " unit=m");
-    if (values[i].measured) line += " measured=" + numberText(*values[i].measured);
-    if (values[i].expected) line += " expected=" + numberText(*values[i].expected);
-    lines.push_back(std::move(line));
-  }
-}
 
 }  // namespace
 
@@ -53,12 +41,9 @@ Why whyAt(const Robot& robot, const std::vector<std::string>& queries, const Pos
       sum += static_cast<double>(logProbability);
       any = true;
     }
-    const std::string name = toText(feature->id());
     if (values.size() > kMostValues) values.resize(kMostValues);
-    why.lines.push_back(
-        name + " p=" + numberText(weigher ? weigher->getProbability(pose) : kNoExpectation) +
-        " values=" + std::to_string(values.size()));
-    addValues(name, values, why.lines);
+    why.features.push_back({feature->id(), weigher ? weigher->getProbability(pose) : kNoExpectation,
+                            std::move(values)});
   }
   why.p = any ? std::exp(sum) : kNoExpectation;
   return why;

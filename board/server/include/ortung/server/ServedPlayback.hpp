@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +39,14 @@ class ORTUNG_API ServedPlayback : public PlainWorld {
     std::string text;     ///< e.g. "scout: lost"
   };
 
+  /// What a run has of one feature.
+  struct Content {
+    SensorId id;
+    std::uint64_t readings = 0;  ///< how many there are
+    Timestamp first = 0;         ///< stamps of the first and the last one on the time line [us]
+    Timestamp last = 0;
+  };
+
   /// Reads each record once: which features it has, how long it is, and what happened in it.
   /// @param progress asked now and then with the share done; false: gives up
   /// @throws std::runtime_error if one is no record or has no readings, or when it is given up;
@@ -48,6 +58,16 @@ class ORTUNG_API ServedPlayback : public PlainWorld {
   /// referee decided, in the order of time; at most 10,000.
   const std::vector<Mark>& marks() const;
   Timestamp length() const;  ///< length of the longest run [us]
+  /// What a run holds, in the order in which its features first appear. Thread-safe.
+  /// @throws ServeError
+  const std::vector<Content>& contents(RobotId robot) const;
+  /// Readings of a whole run, on the time line: of each feature at most @p most, evenly chosen, the
+  /// last one among them, but for readings of more than 8192 words. Reads the record. Thread-safe.
+  /// @param queries "MODEL/TYPE/FEATURE", at least one
+  /// @param goOn asked often; false: gives up and returns nothing
+  /// @throws ServeError, std::runtime_error, std::invalid_argument for a text that is no query
+  std::vector<Message> history(RobotId robot, const std::vector<std::string>& queries,
+                               std::size_t most, const std::function<bool()>& goOn) const;
 
   WorldDescription describe() const override;
   std::vector<std::string> plugins() const override { return {}; }
@@ -75,7 +95,8 @@ class ORTUNG_API ServedPlayback : public PlainWorld {
   std::unique_ptr<Parts> parts_;
 };
 
-/// EVENTS: the marks of the time line. @param playback borrowed
+/// EVENTS, the marks of the time line; CONTENTS and HISTORY, what the records hold.
+/// @param playback borrowed
 ORTUNG_API std::vector<BoardCommand> playbackCommands(const ServedPlayback& playback);
 
 }  // namespace ortung

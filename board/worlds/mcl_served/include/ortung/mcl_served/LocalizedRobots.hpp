@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
-#include "ortung/run/Robot.hpp"
+#include "ortung/mcl_served/PerceivingRobots.hpp"
 #include "ortung/server/ServedWorld.hpp"
 
 namespace ortung {
@@ -38,24 +36,17 @@ struct LocalizationOrder {
 };
 
 /// Who localizes robots, for the commands of clients: filters beside a simulation, or the program
-/// on a robot. Refusals are ServeErrors. Not thread-safe, but for what says so: one thread owns it.
-class ORTUNG_API LocalizedRobots {
+/// on a robot. Refusals are ServeErrors. Not thread-safe, but for PerceivingRobots: one thread owns
+/// it.
+class ORTUNG_API LocalizedRobots : public PerceivingRobots {
  public:
-  virtual ~LocalizedRobots();
+  ~LocalizedRobots() override;
 
-  /// Which robot is meant where none is named, if there is such a one. Thread-safe.
-  virtual std::optional<RobotId> usual() const = 0;
-  /// Whether there is but one side: then players, too, may know what any robot perceives.
-  /// Thread-safe.
-  virtual bool isForAll() const = 0;
   /// How far the localization of a robot is. @throws ServeError if the robot can't be localized
   virtual LocalizationState state(RobotId robot) = 0;
   /// Passes a client's order to the localization of a robot.
   /// @throws ServeError if the robot can't be localized, or can't stand at the pose
   virtual void order(RobotId robot, const LocalizationOrder& order) = 0;
-  /// A robot whose features have tables, with its present readings. Its container takes further
-  /// ones meanwhile; all else of it stays as it is. Thread-safe. @throws ServeError
-  virtual std::shared_ptr<const Robot> perceiver(RobotId robot) const = 0;
 };
 
 }  // namespace ortung

@@ -36,7 +36,7 @@ class ORTUNG_API LocalizedWorld final : public ForwardedWorld, public LocalizedR
   LocalizedWorld(ServedWorld& world, Config config);
   ~LocalizedWorld() override;
 
-  // LocalizedRobots
+  // LocalizedRobots and PerceivingRobots
   std::optional<RobotId> usual() const override;
   bool isForAll() const override { return false; }
   LocalizationState state(RobotId robot) override;

@@ -4,8 +4,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/run/Robot.hpp"
 
@@ -33,15 +35,22 @@ struct HeatMap {
   bool isAngle = false;      ///< whether the expected value is an angle
 };
 
+/// How probable the robot's present readings are all over the field, by the code with which MCL
+/// weighs, or what one of its features expects.
 /// @param goOn asked often; false: nothing comes back
 /// @throws ServeError if no feature is wanted that localizes; for an expectation, if there is not
 ///   just one
-std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
-                               const std::function<bool()>& goOn);
+ORTUNG_API std::optional<HeatMap> heatMap(const Robot& robot, const HeatMapWish& wish,
+                                          const std::function<bool()>& goOn);
+
+/// The same probabilities in both scales, linear first, for little more than one of them takes.
+/// @param wish of a probability; its scale does not matter @throws ServeError as heatMap()
+ORTUNG_API std::optional<std::pair<HeatMap, HeatMap>> bothHeatMaps(
+    const Robot& robot, const HeatMapWish& wish, const std::function<bool()>& goOn);
 
 /// Features of a robot that localize and that one of the queries means.
 /// @throws ServeError if there is none, std::invalid_argument for a text that is no query
-std::vector<const SensorData*> chosenFeatures(const Robot& robot,
-                                              const std::vector<std::string>& queries);
+ORTUNG_API std::vector<const SensorData*> chosenFeatures(const Robot& robot,
+                                                         const std::vector<std::string>& queries);
 
 }  // namespace ortung
