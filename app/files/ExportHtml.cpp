@@ -6,6 +6,7 @@
 #include <boost/iostreams/filtering_stream.hpp>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
@@ -15,6 +16,7 @@
 #include "Base64.hpp"
 #include "Console.hpp"
 #include "Interrupt.hpp"
+#include "KeptMaps.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
 #include "ViewedRuns.hpp"
@@ -32,6 +34,7 @@ constexpr std::size_t kMostBytes = 256u << 20;  // of readings, before they are 
 constexpr std::size_t kMostWords = 8192;        // of a reading; pictures have more
 constexpr std::size_t kMostSamples = 300;       // of a belief
 constexpr std::size_t kWordsOfSample = 4;
+constexpr std::size_t kMapBytes = 24u << 20;  // of all maps, as they stand in the page
 
 /// Some of a belief's samples, evenly chosen: a page has no room for all.
 void thin(Message& message) {
@@ -96,8 +99,58 @@ std::string fileOfPage(const std::filesystem::path& folder, const char* name) {
   return text;
 }
 
+/// Maps of all runs at some moments each.
+class MapsOfRuns {
+ public:
+  MapsOfRuns(const ExportHtmlArguments& arguments, const ViewedRuns& viewed,
+             ServedPlayback& playback)
+      : playback_(playback), progress_("maps", arguments.runs.localization.progress) {
+    const bool areTablesGiven = !arguments.runs.localization.tables.empty();
+    most_ = arguments.maps.value_or(areTablesGiven && viewed.perception ? kUsualMoments : 0);
+    if (most_ == 0) return;
+    if (!viewed.perception)
+      throw UsageError(
+          "--maps needs what the readings are weighed by: --tables, or --robot and --world");
+    world_ = std::make_unique<PerceivedPlayback>(playback, *viewed.perception);
+    Progress learning("learning", arguments.runs.localization.progress);
+    world_->fetchTables([&](double done) {
+      learning.update(done);
+      checkInterrupt();
+      return true;
+    });
+  }
+
+  /// Those of one run, for the page; nothing where none are wanted.
+  json of(RobotId robot) {
+    json moments = json::array();
+    if (!world_) return moments;
+    const auto runs = static_cast<double>(playback_.residents().size());
+    const auto pack = [](const std::string& text) { return textOf(compressed(text)); };
+    const KeptMaps kept =
+        keptMaps(*world_, robot, momentsOf(playback_, robot, most_),
+                 kMapBytes / playback_.residents().size(), pack, [&](double done) {
+                   progress_.update((robot - 1 + done) / runs);
+                   checkInterrupt();
+                   return true;
+                 });
+    for (const KeptMaps::Moment& one : kept.moments)
+      moments.push_back({{"us", one.stamp}, {"data", one.json}});
+    leftOut_ += kept.leftOut;
+    return moments;
+  }
+  std::size_t leftOut() const { return leftOut_; }
+
+ private:
+  static constexpr std::size_t kUsualMoments = 16;
+  ServedPlayback& playback_;
+  Progress progress_;
+  std::unique_ptr<PerceivedPlayback> world_;
+  std::size_t most_ = 0;
+  std::size_t leftOut_ = 0;
+};
+
 /// What the page would have been told by a server, for it to tell itself.
-json tale(const ServedPlayback& playback, const ServedPlayback::Config& config,
+json tale(const ServedPlayback& playback, const ServedPlayback::Config& config, MapsOfRuns& maps,
           std::size_t& leftOut) {
   json robots = json::array();
   for (const Resident& resident : playback.residents()) {
@@ -106,7 +159,8 @@ json tale(const ServedPlayback& playback, const ServedPlayback::Config& config,
     robots.push_back(
         {{"name", resident.name},
          {"describe", robotText(resident.features, playback.abilities(resident.robot))},
-         {"readings", textOf(compressed(readings.lines))}});
+         {"readings", textOf(compressed(readings.lines))},
+         {"maps", maps.of(resident.robot)}});
   }
   json events = json::array();
   for (const ServedPlayback::Mark& mark : playback.marks())
@@ -154,15 +208,20 @@ int runExportHtml(const ExportHtmlArguments& arguments) {
   for (const std::string& source : arguments.runs.sources) outputs.reads(source);
   outputs.writes("--out", arguments.out, OutputKind::kReport);
   const ScratchFolder scratch;
-  const ServedPlayback::Config config = prepareRuns(arguments.runs, scratch);
+  const ViewedRuns viewed = prepareRuns(arguments.runs, scratch);
+  const ServedPlayback::Config& config = viewed.playback;
   Progress progress("reading", arguments.runs.localization.progress);
-  const ServedPlayback playback(config, [&](double done) {
+  ServedPlayback playback(config, [&](double done) {
     progress.update(done);
     return interruptSignal() == 0;
   });
   std::size_t leftOut = 0;
-  const std::string page = pageOf(tale(playback, config, leftOut), config.name);
+  MapsOfRuns maps(arguments, viewed, playback);
+  const std::string page = pageOf(tale(playback, config, maps, leftOut), config.name);
   outputs.write(arguments.out, page);
+  if (maps.leftOut() > 0)
+    warn(fmt::format("maps of {} moments have no room on the page ({} MiB)", maps.leftOut(),
+                     kMapBytes >> 20));
   if (leftOut > 0) warn(fmt::format("{} pictures and other large readings are left out", leftOut));
   fmt::print("{}: {:.1f} s of {} in {:.1f} MB\n", printable(arguments.out.string()),
              toSeconds(playback.length()), printable(config.name),

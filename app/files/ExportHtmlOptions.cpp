@@ -12,6 +12,11 @@ void addHtml(Builder& build) {
       "ortung export html run.rec --robot robot.toml --tables hall.ortung --out run.html",
       runExportHtml);
   addRuns(build, a->runs);
+  build
+      .option("--maps", a->maps,
+              "Moments of each record with maps of p(s given l), events among them; default: 16 "
+              "with --tables, else 0")
+      .within(0, 1000);
   build.option("--out", a->out, "Page to write").required();
   build.flag("--force", a->force, kForce);
 }

@@ -136,8 +136,10 @@ struct Recording {
     if (!found) throw UsageError("--record: there is no robot '" + name + "' to record");
     robot = robots[*found]->state().number;
     run.simulation().robots()[*found]->setWanted({}, true);  // all features
-    record.emplace(outputs.ready(arguments.record), run.simulation().world().fingerprint(),
-                   RecordWriter::Pace::kLive);
+    record.emplace(
+        outputs.ready(arguments.record),
+        RecordNotes{run.simulation().world().fingerprint(), formatsOf(robots[*found]->container())},
+        RecordWriter::Pace::kLive);
   }
   void add(const Simulation& simulation, const std::vector<RefereeEvent>& events) {
     if (!record) return;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@
 #include "Progress.hpp"
 #include "PublishedRecord.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/core/ShippedFiles.hpp"
+#include "ortung/mcl_served/WorldTables.hpp"
+#include "ortung/records/RecordSource.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/run/Localization.hpp"
@@ -107,32 +112,79 @@ std::string textOf(const SourceText& source) {
   return text;
 }
 
-/// Describes lines, walls and goals of the tables or, without those, of the world.
-void describeField(const ViewArguments& arguments, ServedPlayback::Config& config) {
-  const auto boundsOf = [](const FieldRegion& region) {
-    const FieldGrid& grid = region.grid;
-    return FieldBounds{grid.originX, grid.originY, grid.originX + grid.cell * grid.columns,
-                       grid.originY + grid.cell * grid.rows};
-  };
-  if (!arguments.world.empty()) {
-    const auto world = readWorld(arguments.world);
+/// Returns the shipped world that a record says it was made in; "" if there is none.
+std::filesystem::path shippedWorldOf(const std::filesystem::path& record) {
+  const std::string fingerprint = RecordSource(record).worldFingerprint();
+  std::error_code error;
+  const std::filesystem::path folder = shippedFile("fields", "f2000.toml").parent_path();
+  if (fingerprint.empty() || !std::filesystem::is_directory(folder, error)) return {};
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".toml") continue;
+    try {
+      if (readWorld(entry.path())->fingerprint() == fingerprint) return entry.path();
+    } catch (const std::exception& wrong) {  // whoever asks for that one is told so, too
+      note(fmt::format("{}: {}", entry.path().string(), wrong.what()));
+    }
+  }
+  return {};
+}
+
+/// Returns the world file whose field is shown, if one is known.
+std::filesystem::path worldOf(const ViewArguments& arguments,
+                              const ServedPlayback::Config& playback) {
+  if (!arguments.world.empty() || !arguments.localization.tables.empty()) return arguments.world;
+  return shippedWorldOf(playback.runs.front().record);
+}
+
+/// Describes lines, walls and goals of the world or, without one, of the tables.
+void describeField(const std::filesystem::path& worldFile, const std::filesystem::path& tables,
+                   ServedPlayback::Config& config) {
+  if (!worldFile.empty()) {
+    const auto world = readWorld(worldFile);
     const Box2 bounds = world->solids().bounds;
     config.field = fieldText(fieldModelOf(*world));
     config.bounds = FieldBounds{bounds.xLow, bounds.yLow, bounds.xHigh, bounds.yHigh};
-  } else if (!arguments.localization.tables.empty()) {
-    const TableInfo info = readTableInfo(TableFile(arguments.localization.tables));
+  } else if (!tables.empty()) {
+    const TableInfo info = readTableInfo(TableFile(tables));
+    const FieldGrid& grid = info.region.grid;
     config.field = fieldText(info.field);
-    config.bounds = boundsOf(info.region);
+    config.bounds = FieldBounds{grid.originX, grid.originY, grid.originX + grid.cell * grid.columns,
+                                grid.originY + grid.cell * grid.rows};
   }
+}
+
+/// Returns the robot file; without one, that for which the tables were learned.
+std::filesystem::path robotFileOf(const LocalizationArguments& arguments,
+                                  const ScratchFolder& scratch) {
+  if (!arguments.robot.empty() || arguments.tables.empty()) return arguments.robot;
+  const TableInfo info = readTableInfo(TableFile(arguments.tables));
+  if (info.robotToml.empty())
+    throw UsageError(arguments.tables.string() +
+                     ": does not hold its robot file, as older tables; expected --robot");
+  const std::filesystem::path file = scratch.path() / "robot.toml";
+  std::ofstream out(file, std::ios::binary);
+  out << info.robotToml;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": can't be written");
+  return file;
+}
+
+std::optional<PerceivedPlayback::Config> perceptionOf(const LocalizationArguments& arguments,
+                                                      const std::filesystem::path& world) {
+  if (arguments.robot.empty()) return std::nullopt;
+  if (!arguments.tables.empty())
+    return PerceivedPlayback::Config{arguments.robot, givenTables(arguments.tables, "")};
+  if (world.empty()) return std::nullopt;
+  return PerceivedPlayback::Config{arguments.robot, learnedTables(world)};
 }
 
 }  // namespace
 
-ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const ScratchFolder& scratch) {
-  if (arguments.localization.robot.empty() && !arguments.localization.tables.empty())
-    throw UsageError("--tables needs --robot: give both to localize");
-  ServedPlayback::Config config;
-  describeField(arguments, config);
+ViewedRuns prepareRuns(const ViewArguments& given, const ScratchFolder& scratch) {
+  ViewArguments arguments = given;
+  arguments.localization.robot = robotFileOf(given.localization, scratch);
+  ViewedRuns viewed;
+  ServedPlayback::Config& config = viewed.playback;
   const bool localizes = !arguments.localization.tables.empty();
   const std::vector<ServedFeature> described =
       localizes ? std::vector<ServedFeature>() : featuresOf(arguments.localization.robot);
@@ -154,7 +206,10 @@ ServedPlayback::Config prepareRuns(const ViewArguments& arguments, const Scratch
     }
     config.runs.push_back(std::move(run));
   }
-  return config;
+  const std::filesystem::path world = worldOf(arguments, config);
+  describeField(world, arguments.localization.tables, config);
+  viewed.perception = perceptionOf(arguments.localization, world);
+  return viewed;
 }
 
 }  // namespace ortung::app

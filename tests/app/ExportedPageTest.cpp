@@ -93,6 +93,61 @@ TEST_F(ExportedPage, LocalizedRecordsHaveSamplesOfEachBelief) {
   EXPECT_EQ(beliefs, estimates);
 }
 
+/// What a text of the page is, unpacked.
+class Unpacked : public ExportedPage {
+ protected:
+  Json moment(const Json& one) const {
+    write("moment", one["data"].get<std::string>());
+    const std::string unpack = "base64 -d " + path("moment") + " | gunzip > " + path("moment.json");
+    EXPECT_EQ(std::system(unpack.c_str()), 0);
+    return Json::parse(read("moment.json"));
+  }
+};
+
+// The hall's tables hold the robot file, so nothing else is needed.
+TEST_F(Unpacked, MomentsHaveMapsAndReasons) {
+  learnTables();
+  recordRun();
+  const Outcome outcome =
+      exportPage({path("run.rec")}, {"--tables", path("hall.ortung"), "--maps", "3"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Json run = told()["robots"][0];
+  ASSERT_EQ(run["maps"].size(), 3u);
+  EXPECT_EQ(run["maps"].back()["us"], told()["end_us"]) << "events, and evenly up to the end";
+  const Json last = moment(run["maps"].back());
+  const Json& map = last["maps"][0];
+  EXPECT_EQ(map["feature"], "");
+  EXPECT_EQ(map["scale"], "linear");
+  EXPECT_EQ(last["maps"][1]["scale"], "log");
+  EXPECT_GT(map["readings"], 0);
+  const Json& why = last["why"];
+  ASSERT_FALSE(why["features"].empty());
+  // The first place is where the robot truly is: nowhere else is more probable.
+  ASSERT_GT(why["places"].size(), 20u);
+  const double there = why["places"][0]["p"];
+  for (const Json& place : why["places"])
+    EXPECT_LE(place["p"].get<double>(), 2.0 * there) << place["x"] << " " << place["y"];
+  const Json& seen = why["features"][0];
+  const Json& expected = why["places"][0]["expected"][0];
+  ASSERT_EQ(seen["measured"].size(), expected.size());
+  ASSERT_EQ(seen["angles"].size(), expected.size());
+}
+
+TEST_F(Unpacked, MapsNeedTablesAndAreLeftOutWhereNobodyWantsThem) {
+  learnTables();
+  recordRun();
+  EXPECT_EQ(exportPage({path("run.rec")}, {"--maps", "2"}).exitCode, 2);
+  ASSERT_EQ(
+      exportPage({path("run.rec")}, {"--tables", path("hall.ortung"), "--maps", "0"}).exitCode, 0);
+  EXPECT_TRUE(told()["robots"][0]["maps"].empty());
+  // Without tables they are learned, if somebody wants maps.
+  ASSERT_EQ(exportPage({path("run.rec")}, {"--robot", path("robot.toml"), "--world",
+                                           path("hall.toml"), "--maps", "1", "--force"})
+                .exitCode,
+            0);
+  EXPECT_EQ(told()["robots"][0]["maps"].size(), 1u);
+}
+
 TEST_F(ExportedPage, WhatCanNotBeShownIsNamedAndNothingWritten) {
   expectRefused(exportPage({path("none.rec")}), 2,
                 "ortung export html: " + path("none.rec") + ": is neither a file nor a source", {});
