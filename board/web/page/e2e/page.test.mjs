@@ -1,6 +1,6 @@
 // The page of the viewer in a real browser, with the real program: node --test e2e/
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -48,8 +48,8 @@ async function checkReadings(page, what) {
   await tab(page, "Localization").click();
 }
 
-async function checkPanels(page, what) {
-  for (const panel of ["Robots", "Sensors", "Localization", "Game"]) {
+async function checkPanels(page, what, last = "Game") {
+  for (const panel of ["Robots", "Sensors", "Localization", last]) {
     await tab(page, panel).click();
     await page.waitForFunction(() => document.querySelector("#panel .block"));
     await checkAccess(page, `${what}-${panel}`);
@@ -462,6 +462,96 @@ describe("the page of a server that records", () => {
   });
 });
 
+/** What of a record is the same with a server and without one: a map with its age, why, and curves of all of its time. */
+async function checkMapOfRecord(page, what) {
+  await page.getByLabel("on the field").check();
+  await page.getByText(/^brightest at/).waitFor();
+  await page.getByText(/^\d+(\.\d)? s (old|ahead)/).waitFor();
+  await page.locator(".chart canvas").first().waitFor();
+  const there = await onScreen(page, 0.5, 0.5);
+  await page.mouse.click(there.x, there.y);
+  await page.getByRole("heading", { name: /^Why / }).waitFor();
+  await page.getByRole("button", { name: /180DegreeScan/ }).click();
+  await page.getByRole("columnheader", { name: "expected" }).waitFor();
+  await page.screenshot({ path: join(out, `${what}.png`) });
+  assert.deepEqual(page.problems, []);
+}
+
+describe("the page of a record that is weighed", () => {
+  let folder;
+  const at = (name) => join(folder, name);
+  const run = (words) => {
+    const made = runProgram(words);
+    assert.equal(made.status, 0, made.stderr);
+  };
+  before(() => {
+    folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
+    const kRobot = ["--robot", "maps/robots/pioneer.toml"];
+    run(["learn", "--world", "maps/fields/f2000.toml", ...kRobot, "--out", at("f2000.ortung"), "--cell", "0.2"]);
+    run(["sim", "maps/fields/f2000.toml", ...kRobot, "--duration", "8", "--free-run", "--record", at("run.rec")]);
+  });
+  after(() => rmSync(folder, { recursive: true }));
+
+  it("has maps of any moment, and tells why, by its tables alone", async () => {
+    const program = await startProgram(["view", at("run.rec"), "--tables", at("f2000.ortung")]);
+    const page = await openPage(browser, `${program.url}&panel=localization`);
+    const client = await startClient(program);
+    await page.getByRole("button", { name: "Pause" }).click();
+    for (const time of [6, 2]) {
+      await client.ask(`SEEK time_s=${time}`);
+      const [, line] = await client.ask("READ */groundTruth/* robot=1");
+      const [x, y] = line.split(" ").slice(3, 5).map((word) => (Number(word) - 2 ** 31) / 1000);
+      await page.getByLabel("on the field").check();
+      await until(`the map of ${time} s is brightest where the robot was`, async () => {
+        const text = await page.getByText(/^brightest at/).textContent();
+        const [a, b] = /at (\S+), (\S+)$/.exec(text).slice(1).map(Number);
+        return Math.hypot(a - x, b - y) < 0.5;
+      });
+    }
+    await checkMapOfRecord(page, "record-map");
+    client.close();
+    await page.close();
+    await program.stop();
+  });
+
+  it("has those of some moments without a server", async () => {
+    run(["export", "html", at("run.rec"), "--tables", at("f2000.ortung"), "--maps", "3", "--out", at("run.html")]);
+    const page = await openPage(browser, `file://${at("run.html")}#panel=localization`);
+    const moments = page.getByRole("group", { name: "Moments with maps" });
+    await until("it says which", async () => (await moments.getByRole("button").count()) === 3);
+    await page.getByRole("button", { name: "Pause" }).click();
+    await moments.getByRole("button").last().click();
+    await checkMapOfRecord(page, "exported-map");
+    await page.getByLabel("each feature").check();
+    await page.getByRole("img", { name: /^map of LMS200\/LRF/ }).waitFor();
+    await tab(page, "Record").click();
+    await page.getByRole("rowheader", { name: "LMS200/LRF/180DegreeScan" }).waitFor();
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
+  it("shows what there is of a record of which nothing is known", async () => {
+    const lines = at("lines.txt");
+    run(["import", "record", at("run.rec"), "--out", lines]);
+    // Of no world, and without true poses: odometry and scans are all that is left.
+    const kept = readFileSync(lines, "utf8").split("\n").filter((line) => !/^# world|groundTruth/.test(line));
+    writeFileSync(at("bare.rec"), kept.join("\n"));
+    const program = await startProgram(["view", at("bare.rec")]);
+    const page = await openPage(browser, `${program.url}&panel=game`);
+    await page.getByRole("img", { name: /^bare at / }).waitFor();
+    await until("the whole way is drawn", async () => /^M.*L/.test((await page.locator(".way").getAttribute("d")) ?? ""));
+    await page.getByText("Layers", { exact: true }).click();
+    await until("scans are along it", () => page.getByLabel("scans along it").isChecked());
+    await page.getByRole("rowheader", { name: "odometry/odometry/pose" }).waitFor();
+    await tab(page, "Localization").click();
+    await page.getByText(/With --tables hall.ortung/).waitFor();
+    await checkAccess(page, "bare");
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+});
+
 describe("the page of a record", () => {
   it("goes to any time of it, and to what happened", async () => {
     const folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
@@ -484,7 +574,7 @@ describe("the page of a record", () => {
       const [a, b] = /at (\S+), (\S+)$/.exec(label).slice(1).map(Number);
       return Math.hypot(a - x, b - y) < 0.12;
     });
-    await checkPanels(page, "record");
+    await checkPanels(page, "record", "Record");
     assert.deepEqual(page.problems, []);
     client.close();
     await page.close();

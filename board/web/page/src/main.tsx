@@ -4,9 +4,10 @@ import { render } from "preact";
 import { App } from "./app/App";
 import { boardAddress, parseAddress } from "./link/address";
 import type { Line } from "./link/Connection";
-import { RecordedBoard, type RecordedRun } from "./link/RecordedBoard";
+import { RecordedBoard, RecordedTime, type RecordedRun } from "./link/RecordedBoard";
 import { Insight } from "./model/Insight";
 import { Session } from "./model/Session";
+import type { World } from "./model/world";
 import { PageContext, type Context } from "./ui/context";
 import { installKeys } from "./ui/keys";
 import { Ui } from "./ui/Ui";
@@ -14,8 +15,9 @@ import { Ui } from "./ui/Ui";
 const address = parseAddress(location.hash);
 const ui = new Ui(address);
 const recorded = document.getElementById("run");
-const dial = recorded
-  ? () => new RecordedBoard(JSON.parse(recorded.textContent ?? "") as RecordedRun) as Line
+const run = recorded && new RecordedTime(JSON.parse(recorded.textContent ?? "") as RecordedRun);
+const dial = run
+  ? () => new RecordedBoard(run) as Line
   : () => new WebSocket(boardAddress(location), ["ortung.board.1"]);
 const session = new Session(dial, recorded ? "-" : address.token);
 if (address.robot) session.board.selected = address.robot;
@@ -28,6 +30,7 @@ const insight = new Insight(session, () => {
 const context: Context = { session, ui, insight };
 
 let shown = -1;
+let world: World | null = null;
 const settle = () => {
   const { board } = session;
   insight.wantsExpected = ui.layers.expected;
@@ -35,6 +38,12 @@ const settle = () => {
   if (session.wishes.samples !== ui.layers.samples) {
     session.wishes.samples = ui.layers.samples;
     session.wish();
+  }
+  if (board.world !== world) {
+    world = board.world;
+    // Where no walls are known, the scans of a record show what there is.
+    const isUnknown = board.kind === "record" && !board.drawing.walls.length;
+    if (isUnknown !== ui.layers.along) ui.change({ layers: { ...ui.layers, along: isUnknown } });
   }
   if (board.selected !== shown) {
     shown = board.selected;

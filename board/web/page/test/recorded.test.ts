@@ -1,6 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { gzipSync } from "node:zlib";
-import { countUntil, matches, RecordedBoard, truthWords } from "../src/link/RecordedBoard";
+import { countUntil, matches, RecordedBoard, RecordedTime, truthWords } from "../src/link/RecordedBoard";
 import { Robot } from "../src/model/Robot";
 
 describe("a run within the page", () => {
@@ -21,9 +21,9 @@ describe("a run within the page", () => {
     const describe = ["laser/LRF/scan for people", "format laser/LRF/scan scan beams=2 first_deg=0 step_deg=90 max_m=8"];
     globalThis.WebSocket ??= { CONNECTING: 0, OPEN: 1, CLOSED: 3 } as unknown as typeof WebSocket;
     const readings = gzipSync("0 laser/LRF/scan 2 1000 2000\n").toString("base64");
-    const board = new RecordedBoard({
+    const board = new RecordedBoard(new RecordedTime({
       world: ["world=run"], field: [], truth: [], events: [], robots: [{ name: "run", describe, readings }], end_us: 1,
-    });
+    }));
     const said = await new Promise<string>((resolve) => {
       board.onopen = () => board.send("#1 DESCRIBE robot robot=1\n");
       board.onmessage = ({ data }) => resolve(data as string);

@@ -48,7 +48,7 @@ export function App() {
                 tabIndex={ui.panel === name ? 0 : -1}
                 onClick={() => ui.change({ panel: name })}
               >
-                {kTitles[name]}
+                {name === "game" && board.kind === "record" ? "Record" : kTitles[name]}
               </button>
             ))}
           </div>

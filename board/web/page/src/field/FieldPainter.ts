@@ -180,10 +180,12 @@ export class FieldPainter implements HandledField {
   private takeRays(cloud: Cloud): boolean {
     const { session, ui } = this.context;
     const { robot } = session.board;
-    const inputs = [session.readings, ui.layers, ui.expected, robot];
+    if (ui.layers.along && robot && !robot.along) void session.past.learnScans(robot);
+    const inputs = [session.readings, ui.layers, ui.expected, robot, robot?.along?.length];
     if (inputs.every((input, i) => input === this.rayInputs[i])) return false;
     this.rayInputs = inputs;
     const rays = new Rays();
+    if (robot && ui.layers.along) rays.addAlong(robot);
     if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, ui.expected);
     cloud.setLines(new Float32Array(rays.lines));
     cloud.setDots(new Float32Array(rays.dots));

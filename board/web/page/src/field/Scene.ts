@@ -1,6 +1,7 @@
 import type { Board, MovableState } from "../model/Board";
 import { changesOf, placesOf, type Protection } from "../model/decode";
 import { degrees, ellipseOf, type Pose } from "../model/geometry";
+import { bestOf, kJump, type Moment } from "../model/moments";
 import type { Robot } from "../model/Robot";
 import type { MovableKind, Outline } from "../model/world";
 import type { Layers } from "../ui/layers";
@@ -14,6 +15,8 @@ interface Drawn {
   parts: { element: SVGElement; outline: Outline }[];
   label: SVGTextElement;
   trail: SVGPolylineElement;
+  /** All of a record. */
+  way: SVGPathElement;
   /** What it is called for screen readers, newest. */
   spoken: string;
 }
@@ -22,6 +25,7 @@ interface Drawn {
 export class Scene {
   private readonly ground: SVGGElement;
   private readonly changes: SVGGElement;
+  private readonly ways: SVGGElement;
   private readonly trails: SVGGElement;
   private readonly beliefs: SVGGElement;
   private readonly movers: SVGGElement;
@@ -39,6 +43,7 @@ export class Scene {
     svg.replaceChildren();
     this.ground = make("g", { "aria-hidden": "true" }, svg);
     this.changes = make("g", { "aria-hidden": "true" }, svg);
+    this.ways = make("g", { "aria-hidden": "true" }, svg);
     this.trails = make("g", { "aria-hidden": "true" }, svg);
     this.beliefs = make("g", { "aria-hidden": "true" }, svg);
     this.movers = make("g", {}, svg);
@@ -48,12 +53,13 @@ export class Scene {
   draw(view: View, layers: Layers, held: Map<string, Pose>): void {
     const { board } = this;
     if (this.scene !== board.scene) this.rebuild();
-    for (const group of [this.ground, this.changes, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
+    for (const group of [this.ground, this.changes, this.ways, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
     for (const robot of board.robots.values()) this.drawRobot(robot, view, layers, held.get(`robot=${robot.number}`));
     for (const object of board.objects) this.drawObject(object, view, held.get(`object=${object.name}`));
     this.drawChanges(layers);
     this.drawBeliefs(view, layers);
     set(this.labels, "visibility", layers.names ? "visible" : "hidden");
+    set(this.ways, "visibility", layers.way ? "visible" : "hidden");
     set(this.trails, "visibility", layers.trails ? "visible" : "hidden");
   }
 
@@ -73,8 +79,9 @@ export class Scene {
     for (const object of board.world?.objects ?? []) this.buildObject(object);
   }
 
-  private drop({ group, label, trail }: Drawn): void {
+  private drop({ group, label, trail, way }: Drawn): void {
     group.remove();
+    way.remove();
     label.remove();
     trail.remove();
   }
@@ -83,7 +90,7 @@ export class Scene {
     const group = make("g", { role: "img", tabindex: "0", "aria-label": name, visibility: "hidden", ...attributes }, this.movers);
     const label = make("text", { class: "name" }, this.labels);
     label.textContent = name;
-    return { group, parts: [], label, trail: make("polyline", { class: "trail" }, this.trails), spoken: name };
+    return { group, parts: [], label, trail: make("polyline", { class: "trail" }, this.trails), way: make("path", { class: "way" }, this.ways), spoken: name };
   }
 
   private buildRobot(robot: Robot): void {
@@ -98,6 +105,8 @@ export class Scene {
     const team = robotColour(robot, isRun);
     drawn.label.textContent = robot.label;
     set(drawn.trail, "stroke", team);
+    set(drawn.way, "stroke", team);
+    set(drawn.way, "d", robot.way ? pathOf(bestOf(robot.way)) : "");
     group.replaceChildren();
     drawn.parts = [];
     const reach = Math.max(robot.radius, 0.12);
@@ -215,4 +224,18 @@ export class Scene {
     const r = fixed(robot.radius);
     make("path", { d: `M-${r} 0a${r} ${r} 0 1 0 ${fixed(2 * robot.radius)} 0a${r} ${r} 0 1 0 -${fixed(2 * robot.radius)} 0M0 0H${fixed(robot.radius * 1.5)}`, class: kind, transform: at }, this.beliefs);
   }
+}
+
+/** Nobody drives faster [m/s]. */
+const kFastest = 3;
+
+/** A line along poses; who was carried leaves a gap in it. */
+function pathOf(moments: Moment[]): string {
+  return moments
+    .map(({ x, y, stamp }, i) => {
+      const last = moments[i - 1];
+      const isGap = !last || Math.hypot(x - last.x, y - last.y) > kJump + (kFastest * (stamp - last.stamp)) / 1e6;
+      return `${isGap ? "M" : "L"}${fixed(x, 2)} ${fixed(y, 2)}`;
+    })
+    .join("");
 }

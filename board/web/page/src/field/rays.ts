@@ -10,6 +10,7 @@ import type { Layers } from "../ui/layers";
 type Rgba = readonly [number, number, number, number];
 const kRay: Rgba = [0.34, 0.71, 0.91, 0.28];
 const kHit: Rgba = [0.34, 0.71, 0.91, 1];
+const kAlong: Rgba = [0.2, 0.5, 0.75, 0.5];
 const kFar: Rgba = [0.34, 0.71, 0.91, 0.1];
 const kSeen: Rgba = [0.8, 0.47, 0.65, 0.9];
 const kObject: Rgba = [1, 0.6, 0.15, 0.95];
@@ -43,6 +44,20 @@ export class Rays {
       }
       const values = layers.expected ? expected?.get(feature.name) : undefined;
       if (values) this.addExpected(feature, values, sensor);
+    }
+  }
+
+  /** Where the scans of a whole record have met something. */
+  addAlong(robot: Robot): void {
+    for (const { feature, words, pose } of robot.along ?? []) {
+      const known = robot.feature(feature);
+      if (known?.kind.name !== "scan") continue;
+      const { first, step, most } = known.kind;
+      const sensor = compose(pose, known.mount);
+      for (let i = 0; i < words.length; ++i) {
+        const range = words[i]! / 1000;
+        if (range > 0 && range < most) this.dot(polar(sensor, range, first + i * step), kAlong);
+      }
     }
   }
 

@@ -1,6 +1,8 @@
 import type { Reading } from "../link/readingsIn";
-import { wrap, degrees } from "./geometry";
-import { kEstimate, type Robot } from "./Robot";
+import { wrap, degrees, type Pose } from "./geometry";
+import { kEstimate } from "./features";
+import { momentAt, type Moment, type Way } from "./moments";
+import type { Robot } from "./Robot";
 import { valuesOf } from "./values";
 
 /** A number over time: stamps [s] and values, oldest first. */
@@ -20,12 +22,15 @@ const kApart = 25_000;
 export class History {
   readonly series = new Map<string, Series>();
   version = 0;
+  /** Of a record, whose series are whole from the beginning: brings them. */
+  whole: { begin: number; end: number; wanted: () => void } | null = null;
 
   /** Follows value @p name of @p feature from now on; twice: no more. */
   toggle(feature: string, name: string, unit: string): void {
     const key = `${feature} ${name}`;
     if (!this.series.delete(key)) this.add(key, `${feature.split("/").at(-1)} ${name}`, unit);
     this.version++;
+    this.whole?.wanted();
   }
 
   has(feature: string, name: string): boolean {
@@ -42,9 +47,11 @@ export class History {
     for (const series of this.series.values()) series.times = [];
     for (const series of this.series.values()) series.values = [];
     this.version++;
+    this.whole?.wanted();
   }
 
   take(robot: Robot, { stamp, feature, words }: Reading): void {
+    if (this.whole) return;
     const time = stamp / 1e6;
     if (feature === kEstimate) this.takeError(robot, stamp);
     if (!this.isWanted(feature)) return;
@@ -55,6 +62,51 @@ export class History {
       if (series) push(series, time, value);
     }
     this.version++;
+  }
+
+  /** Features of which a series is wanted that has no value yet. */
+  get missing(): string[] {
+    const found = new Set<string>();
+    for (const { key, times } of this.series.values()) if (!times.length && key.includes("/")) found.add(key.split(" ", 1)[0]!);
+    return [...found];
+  }
+
+  /** All that a record has of a feature. */
+  takeWhole(robot: Robot, readings: Reading[]): void {
+    for (const { stamp, feature, words } of readings) {
+      const known = robot.feature(feature);
+      if (!known) continue;
+      for (const { name, value } of valuesOf(known.kind, words, 8192)) {
+        const series = this.series.get(`${feature} ${name}`);
+        if (series) push(series, stamp / 1e6, value);
+      }
+    }
+    this.version++;
+  }
+
+  /** How far the estimates of a whole record are from the truth, and from those of others, by their names. */
+  takeWays(way: Way, others: Map<string, Way>): void {
+    for (const key of [...this.series.keys()]) if (!key.includes("/")) this.series.delete(key);
+    const { estimate, truth } = way;
+    const turn = (a: { theta: number }, b: { theta: number }) => Math.abs(degrees(wrap(a.theta - b.theta)));
+    this.compare("error distance", "error", "m", estimate, truth, apart);
+    this.compare("error heading", "heading error", "°", estimate, truth, turn);
+    const own = estimate.length ? estimate : truth;
+    for (const [name, other] of others) {
+      const its = other.estimate.length ? other.estimate : other.truth;
+      this.compare(`apart ${name}`, `from ${name}`, "m", own, its, apart);
+    }
+    this.version++;
+  }
+
+  private compare(key: string, label: string, unit: string, own: Moment[], other: Moment[], by: typeof apart): void {
+    if (!own.length || !other.length) return;
+    const series = this.add(key, label, unit);
+    for (const moment of own) {
+      const its = momentAt(other, moment.stamp);
+      if (its) push(series, moment.stamp / 1e6, by(moment, its));
+    }
+    if (!series.times.length) this.series.delete(key);
   }
 
   private isWanted(feature: string): boolean {
@@ -76,6 +128,15 @@ export class History {
   }
 }
 
+const apart = (a: Pose, b: Pose): number => Math.hypot(a.x - b.x, a.y - b.y);
+
+/** A value of a series at a time [s]: the last one before it. */
+export function valueAt({ times, values }: Series, time: number): number | undefined {
+  let found: number | undefined;
+  for (let i = 0; i < times.length && times[i]! <= time; ++i) found = values[i];
+  return found;
+}
+
 function push(series: Series, time: number, value: number): void {
   const last = series.times.at(-1);
   if (last !== undefined && time < last) {
@@ -86,7 +147,7 @@ function push(series: Series, time: number, value: number): void {
   }
   series.times.push(time);
   series.values.push(value);
-  if (series.times.length > kMost) {
+  if (series.times.length > kMost) { // never of a whole record, which has fewer
     series.times.splice(0, kMost / 10);
     series.values.splice(0, kMost / 10);
   }

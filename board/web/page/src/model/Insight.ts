@@ -1,6 +1,6 @@
 import { BoardError, type Reply } from "../link/Connection";
 import { numberOf, parseHead, plain } from "../link/words";
-import { degrees, type Pose } from "./geometry";
+import { degrees, radians, type Pose } from "./geometry";
 import type { Expected, Heat } from "./maps";
 import type { Session } from "./Session";
 
@@ -10,6 +10,8 @@ export interface FeatureMap {
   heat: Heat;
   low: number;
   high: number;
+  /** When the newest reading was taken that it is of [us]; of an exported page, the moment it was made for. */
+  stamp: number;
 }
 
 export interface WhyFeature {
@@ -145,7 +147,7 @@ export class Insight {
       session.side.close();
       return kSlowPause / 4;
     }
-    const at = wantsWhy && (board.robot!.truth ?? board.robot!.estimate);
+    const at = wantsWhy && (board.robot!.truth ?? board.robot!.estimate ?? (wantsMap ? this.middle : null));
     const why = at ? await this.askWhy(at) : null;
     if (turn !== this.turn) return 0;
     if (why) {
@@ -155,6 +157,12 @@ export class Insight {
     if (wantsMap) await this.askMaps(began, turn);
     if (turn === this.turn) this.changed();
     return Math.max(kRest, kMapPeriod - (performance.now() - began));
+  }
+
+  /** Where to ask which features there are, if nobody knows where the robot is. */
+  private get middle(): Pose {
+    const { world } = this.session.board;
+    return world ? { x: (world.min.x + world.max.x) / 2, y: (world.min.y + world.max.y) / 2, theta: 0 } : { x: 0, y: 0, theta: 0 };
   }
 
   private forgetMaps(): void {
@@ -262,6 +270,7 @@ export function parseMap({ keys, bytes }: Reply): Omit<FeatureMap, "feature"> {
     heat: { columns, rows, step, x: numberOf(keys, "x_min_m", 0), y: numberOf(keys, "y_min_m", 0), cells: bytes },
     low: numberOf(keys, "low", 0),
     high: numberOf(keys, "high", 1),
+    stamp: numberOf(keys, "moment", numberOf(keys, "stamp", 0)),
   };
 }
 
@@ -283,7 +292,13 @@ export function parseWhy({ keys, lines }: Reply, pose: Pose): Why {
       features.push({ feature: words[0], p: numberOf(of, "p", 0), values: [] });
     }
   }
-  return { pose, p: numberOf(keys, "p", 0), features };
+  // An exported page answers for the place that is next to the one it was asked for.
+  const at = {
+    x: numberOf(keys, "x_m", pose.x),
+    y: numberOf(keys, "y_m", pose.y),
+    theta: keys.has("theta_deg") ? radians(numberOf(keys, "theta_deg", 0)) : pose.theta,
+  };
+  return { pose: at, p: numberOf(keys, "p", 0), features };
 }
 
 export function expectedOf(why: Why): Expected {

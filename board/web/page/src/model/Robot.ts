@@ -1,9 +1,10 @@
 import { numberOf, parseHead } from "../link/words";
 import { poseOf, protectionOf, statusOf, type Protection, type Status } from "./decode";
-import type { Feature } from "./features";
+import { kEstimate, type Feature } from "./features";
 import { parseFormat } from "./Format";
-import { compose, inverse, wrap, type Point, type Pose } from "./geometry";
+import { compose, inverse, type Point, type Pose } from "./geometry";
 import { kindOf, type Kind } from "./kinds";
+import { between, kJump, type Content, type Moment, type Way } from "./moments";
 import { parseOutline, type Outline } from "./world";
 
 /** The newest reading of a feature. */
@@ -12,29 +13,9 @@ export interface Held {
   words: Uint32Array;
 }
 
-/** A robot's estimate of its pose; other poses with sigmas are those of sensors. */
-export const kEstimate = "mcl/LOCALIZATION/pose";
-
 const kTrail = 400;
 const kPast = 50;
 const kTrailStep = 0.03;
-const kJump = 0.6;
-
-type Moment = Pose & { stamp: number };
-
-/** Who was carried away meanwhile was at one place or the other, never between them. */
-function between(before: Moment, behind: Moment, stamp: number): Pose {
-  if (Math.hypot(behind.x - before.x, behind.y - before.y) > kJump) {
-    return stamp - before.stamp < behind.stamp - stamp ? before : behind;
-  }
-  const share = behind.stamp > before.stamp ? (stamp - before.stamp) / (behind.stamp - before.stamp) : 1;
-  return {
-    x: before.x + share * (behind.x - before.x),
-    y: before.y + share * (behind.y - before.y),
-    theta: wrap(before.theta + share * wrap(behind.theta - before.theta)),
-  };
-}
-
 /** A word, and what is behind it. */
 function split(line: string): [string, string] {
   const blank = line.indexOf(" ");
@@ -68,6 +49,11 @@ export class Robot {
   trail: Point[] = [];
   /** Where it was lately, to compare with estimates that come later. */
   private past: Moment[] = [];
+  /** Of a record: what it holds, where the robot was in all of it, scans of it all, and which moments have maps [us]. */
+  contents: Content[] = [];
+  way: Way | null = null;
+  along: (Held & { feature: string; pose: Pose })[] | null = null;
+  mapMoments: number[] = [];
   /** Where odometry's origin was in the field when it was last joined to the truth. */
   private odometryOrigin: Pose | null = null;
 

@@ -6,6 +6,7 @@ import { numberOf, plain } from "../link/words";
 import { Board, type Wishes } from "./Board";
 import { poseOf } from "./decode";
 import { History } from "./History";
+import { Past } from "./Past";
 import type { Robot } from "./Robot";
 import { takeRobots } from "./roster";
 import { parseGame, parseHappenings, parsePlayerKinds, parsePlaying } from "./soccer";
@@ -27,6 +28,8 @@ export class Session {
   readonly connection: Connection;
   /** For what takes long: maps, and why a place is probable. */
   readonly side: SideLine;
+  /** What records hold as a whole, over a connection of its own. */
+  readonly past: Past;
   /** Counts what came of the selected robot. */
   readings = 0;
   private polling: ReturnType<typeof setInterval> | undefined;
@@ -52,6 +55,7 @@ export class Session {
       unasked: (unasked) => this.unasked(unasked),
     });
     this.side = new SideLine(dial, () => greeting(this.token, "viewer"));
+    this.past = new Past(this.board, this.history, new SideLine(dial, () => greeting(this.token, "viewer")));
   }
 
   start(): void {
@@ -192,6 +196,7 @@ export class Session {
     await this.listRobots();
     await this.followWorld();
     await this.follow();
+    void this.past.learn();
     const kinds = board.kind === "simulation" ? await this.tryAsk("DESCRIBE players") : null;
     board.playerKinds = kinds ? parsePlayerKinds(kinds.lines) : [];
     const robots = board.kind === "simulation" ? await this.tryAsk("DESCRIBE robots") : null;
@@ -206,6 +211,7 @@ export class Session {
     clearInterval(this.polling);
     clearInterval(this.truthPolling);
     this.side.close();
+    this.past.close();
     board.link = board.link === "refused" ? "refused" : "lost";
     board.linkText = `${why}; trying again${againIn >= 1 ? ` in ${Math.round(againIn)} s` : ""}`;
     board.touch();

@@ -9,3 +9,6 @@ export interface Feature {
   kind: Kind;
   mount: Pose;
 }
+
+/** A robot's estimate of its pose; other poses with sigmas are those of sensors. */
+export const kEstimate = "mcl/LOCALIZATION/pose";

@@ -3,6 +3,7 @@ import { useBoard, usePage } from "../ui/context";
 import type { PlayerKind } from "../model/Board";
 import { plain } from "../link/words";
 import { scoresOf } from "../model/soccer";
+import { Contents } from "./Contents";
 import { ErrorNote, Say, Section, seconds } from "./parts";
 
 const kOrders = ["start", "stop", "half-time", "end", "reset", "dropped-ball"];
@@ -13,6 +14,7 @@ export function GamePanel() {
   const hasReferee = board.game.has("phase");
   return (
     <>
+      {board.kind === "record" && <Contents />}
       {board.kind !== "record" && (
         <Section title="Score">
           <Score />

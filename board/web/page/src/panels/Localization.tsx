@@ -1,14 +1,17 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { useBoard, usePage } from "../ui/context";
 import { kOpaque, paintHeat } from "../field/HeatLayer";
+import type { Board } from "../model/Board";
 import { fixOf, placesOf } from "../model/decode";
 import { boundText, summary } from "../model/values";
 import { degrees, radians, wrap } from "../model/geometry";
 import type { FeatureMap, Why } from "../model/Insight";
-import { kEstimate, type Robot } from "../model/Robot";
+import { kEstimate } from "../model/features";
+import type { Robot } from "../model/Robot";
 import { Curves } from "./Curves";
 import { Icon } from "./Icon";
-import { ErrorNote, Say, Section, shortName } from "./parts";
+import { ErrorNote, Say, Section, seconds, shortName } from "./parts";
+import { plain } from "../link/words";
 
 export function LocalizationPanel() {
   const board = useBoard(100);
@@ -19,8 +22,16 @@ export function LocalizationPanel() {
     <>
       <FilterSection robot={robot} />
       {isLocalized && <BeliefSection robot={robot} />}
-      {isLocalized && <Curves only="error" />}
+      {(isLocalized || board.kind === "record") && <Curves only={["error", "apart"]} />}
       {board.can("HEATMAP") && <MapSection />}
+      {board.kind === "record" && !board.can("HEATMAP") && (
+        <Section title="Map of p(s given l)">
+          <p class="hint">
+            There are no tables to weigh readings by: --tables hall.ortung, or --robot robot.toml and --world hall.toml to learn
+            them at once.
+          </p>
+        </Section>
+      )}
     </>
   );
 }
@@ -42,9 +53,7 @@ function FilterSection({ robot }: { robot: Robot }) {
           </span>
         </p>
       ) : (
-        <p class="hint">
-          {board.can("LOCALIZE") ? "It is not localized." : "This server does not localize robots: start it with --localize."}
-        </p>
+        <p class="hint">{whyNot(board)}</p>
       )}
       {board.can("LOCALIZE") && (
         <div class="row" role="group" aria-label="Filter">
@@ -69,6 +78,20 @@ function FilterSection({ robot }: { robot: Robot }) {
       <ErrorNote at="localization" />
     </Section>
   );
+}
+
+/** How old a map is. */
+function ageOf(stamp: number, board: Board): string {
+  const age = (board.now - stamp) / 1e6;
+  const long = `${Math.abs(age).toFixed(Math.abs(age) < 10 ? 1 : 0)} s`;
+  return age < -0.05 ? `${long} ahead, of ${seconds(stamp)}` : `${long} old`;
+}
+
+/** Why there is no estimate, and what to do. */
+function whyNot(board: Board): string {
+  if (board.can("LOCALIZE")) return "It is not localized.";
+  if (board.kind !== "record") return "This server does not localize robots: start it with --localize.";
+  return "The record has no estimates. With --tables hall.ortung it is localized when it is opened.";
 }
 
 const kAboutBound = "The error exceeds it once in a thousand while tracking, once in a hundred while uncertain.";
@@ -203,8 +226,9 @@ function MapSection() {
           />
           each feature
         </label>
-        {insight.map && <span class="hint">{insight.rate.toFixed(1)} a second</span>}
+        {insight.map && <span class="hint">{ageOf(insight.map.stamp, session.board)}</span>}
       </div>
+      {robot && robot.mapMoments.length > 0 && <Moments stamps={robot.mapMoments} />}
       {insight.wantsMap && (
         <>
           <div class="row wrap">
@@ -257,6 +281,18 @@ function MapSection() {
         </>
       )}
     </Section>
+  );
+}
+
+/** A page without a server has maps of some moments; the one next to the time that is shown is drawn. */
+function Moments({ stamps }: { stamps: number[] }) {
+  return (
+    <div class="moments" role="group" aria-label="Moments with maps">
+      <span class="hint">{stamps.length} moments of this page have maps:</span>
+      {stamps.map((stamp) => (
+        <Say key={stamp} line={`SEEK time_s=${plain(stamp / 1e6)}`} at="time" class="small">{seconds(stamp)}</Say>
+      ))}
+    </div>
   );
 }
 

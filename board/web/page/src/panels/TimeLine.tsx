@@ -46,6 +46,9 @@ export function TimeLine() {
           onChange={() => setHeld(null)}
         />
         <svg class="marks" viewBox="0 0 1000 10" preserveAspectRatio="none" aria-hidden="true">
+          {board.robot?.mapMoments.map((stamp) => (
+            <rect key={`map ${stamp}`} x={(1000 * (stamp - world.start)) / length - 1} y="5" width="2.5" height="5" class="mark map" />
+          ))}
           {board.happenings.map(({ number, stamp, what, text }) => {
             const kind = /(?:^|: )(goal|lost|carried)\b/.exec(`${what}: ${text}`)?.[1] ?? "";
             const x = (1000 * (stamp - world.start)) / length - 1;

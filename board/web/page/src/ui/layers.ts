@@ -2,6 +2,8 @@
 export interface Layers {
   names: boolean;
   trails: boolean;
+  way: boolean;
+  along: boolean;
   rays: boolean;
   sightings: boolean;
   expected: boolean;
@@ -16,6 +18,8 @@ export interface Layers {
 export const kLayers: Record<keyof Layers, { label: string; about: string; on: boolean }> = {
   names: { label: "names", about: "names of robots", on: true },
   trails: { label: "trails", about: "where robots have been", on: false },
+  way: { label: "whole way", about: "where robots are in all of a record", on: true },
+  along: { label: "scans along it", about: "some scans of all of a record, where the selected robot took them", on: false },
   rays: { label: "rays", about: "scans and sonar cones of the selected robot", on: true },
   sightings: { label: "sightings", about: "landmarks, objects and points that the selected robot sees", on: true },
   expected: { label: "expected", about: "what the features should read where the robot is", on: false },
