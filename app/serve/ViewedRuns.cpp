@@ -21,6 +21,7 @@
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/run/Localization.hpp"
+#include "ortung/served/OpenFloor.hpp"
 #include "ortung/server/FieldText.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
@@ -136,18 +137,29 @@ std::filesystem::path worldOf(const ViewArguments& arguments,
   return shippedWorldOf(playback.runs.front().record);
 }
 
+/// Returns what DESCRIBE field tells of it; of a building also where its floor is free.
+std::vector<std::string> fieldOf(const FieldModel& model, const FieldRegion& region) {
+  std::vector<std::string> lines = fieldText(model);
+  if (!isFloor(model)) return lines;
+  const std::vector<std::string> floor = floorText(region.grid, region.open);
+  lines.insert(lines.end(), floor.begin(), floor.end());
+  return lines;
+}
+
 /// Describes lines, walls and goals of the world or, without one, of the tables.
 void describeField(const std::filesystem::path& worldFile, const std::filesystem::path& tables,
                    ServedPlayback::Config& config) {
   if (!worldFile.empty()) {
     const auto world = readWorld(worldFile);
     const Box2 bounds = world->solids().bounds;
-    config.field = fieldText(fieldModelOf(*world));
+    const FieldModel model = fieldModelOf(*world);
+    const FieldRegion floor = isFloor(model) ? openFloor(*world) : FieldRegion();
+    config.field = fieldOf(model, floor);
     config.bounds = FieldBounds{bounds.xLow, bounds.yLow, bounds.xHigh, bounds.yHigh};
   } else if (!tables.empty()) {
     const TableInfo info = readTableInfo(TableFile(tables));
     const FieldGrid& grid = info.region.grid;
-    config.field = fieldText(info.field);
+    config.field = fieldOf(info.field, info.region);
     config.bounds = FieldBounds{grid.originX, grid.originY, grid.originX + grid.cell * grid.columns,
                                 grid.originY + grid.cell * grid.rows};
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
+#include <utility>
 
 namespace ortung {
 namespace {
@@ -38,6 +40,45 @@ std::string goalText(const FieldGoal& goal) {
          keyValue("dy_m", goal.halfY) + keyValue("height_m", goal.zHigh) + colourText(goal.colour);
 }
 
+constexpr std::size_t kMostCells = 250'000;
+constexpr std::size_t kMostFloorBytes = 256u << 10;
+constexpr std::size_t kLongestRuns = 700;  // bytes in a line: replies cut longer ones
+
+/// Joins four cells to one, which is open if one of them is.
+void halve(FieldGrid& grid, std::vector<std::uint8_t>& open) {
+  FieldGrid coarse{grid.originX, grid.originY, 2.0 * grid.cell, (grid.columns + 1) / 2,
+                   (grid.rows + 1) / 2};
+  std::vector<std::uint8_t> joined(coarse.size(), 0);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (std::size_t i = 0; i < open.size(); ++i)
+    if (open[i] != 0)
+      joined[i / columns / 2 * static_cast<std::size_t>(coarse.columns) + i % columns / 2] = 1;
+  grid = coarse;
+  open = std::move(joined);
+}
+
+/// Lines of runs of cells that are alike, in turn closed and open.
+std::vector<std::string> runsOf(const FieldGrid& grid, const std::vector<std::uint8_t>& open) {
+  const std::string head = "open" + keyValue("x_min_m", grid.originX) +
+                           keyValue("y_min_m", grid.originY) + keyValue("step_m", grid.cell) +
+                           keyValue("columns", grid.columns) + keyValue("rows", grid.rows);
+  std::vector<std::string> lines;
+  std::string runs;
+  std::size_t begin = 0;  // of the line
+  std::uint8_t kind = 0;  // of the run that is next
+  for (std::size_t i = 0; i < open.size();) {
+    const std::size_t from = i;
+    while (i < open.size() && (open[i] != 0) == (kind != 0)) ++i;
+    runs += (runs.empty() ? "" : ",") + std::to_string(i - from);
+    kind ^= 1U;
+    if (i < open.size() && (runs.size() < kLongestRuns || kind != 0)) continue;
+    lines.push_back(head + " from=" + std::to_string(begin) + " " + runs);
+    runs.clear();
+    begin = i;
+  }
+  return lines;
+}
+
 std::string number(double value) {
   char digits[32];
   const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, value);
@@ -68,5 +109,18 @@ std::vector<std::string> fieldText(const FieldModel& field) {
                     keyValue("y_m", landmark.y) + keyValue("z_m", landmark.z));
   return lines;
 }
+
+std::vector<std::string> floorText(FieldGrid grid, std::vector<std::uint8_t> open) {
+  if (grid.columns <= 0 || grid.rows <= 0 || open.size() != grid.size()) return {};
+  while (grid.size() > kMostCells) halve(grid, open);
+  for (;; halve(grid, open)) {
+    std::vector<std::string> lines = runsOf(grid, open);
+    std::size_t bytes = 0;
+    for (const std::string& line : lines) bytes += line.size() + 1;
+    if (bytes <= kMostFloorBytes) return lines;
+  }
+}
+
+bool isFloor(const FieldModel& field) { return field.lines.empty() && field.goals.empty(); }
 
 }  // namespace ortung

@@ -582,3 +582,26 @@ describe("the page of a record", () => {
     rmSync(folder, { recursive: true });
   });
 });
+
+describe("the page of a building", () => {
+  it("has a floor as of a map, and no game", async () => {
+    const program = await startProgram(["sim", "maps/fields/offices.toml", "--robot", "maps/robots/pioneer_lrf.toml"]);
+    const page = await openPage(browser, `${program.url}&panel=game`);
+    await robot(page, "pioneer_lrf").waitFor();
+    await tab(page, "World").waitFor();
+    assert.equal(await page.locator(".score, .big-score").count(), 0);
+    assert.equal(await page.getByRole("group", { name: "Orders" }).count(), 0);
+    assert.equal(await page.locator(".floor.pitch").count(), 0);
+    assert.ok((await page.locator(".solid").count()) > 3, "furniture");
+    const shares = await page.locator("canvas.free").evaluate((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      return data.filter((_, i) => i % 4 === 3).reduce((sum, alpha) => sum + alpha / 255, 0) / (data.length / 4);
+    });
+    // Three floors are 0.7 of the picture, walls and furniture included; the rest lies between them.
+    assert.ok(shares > 0.5 && shares < 0.75, `${shares} of all cells are free`);
+    await checkAccess(page, "building");
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+});

@@ -10,6 +10,7 @@
 #include "ShippedRobots.hpp"
 #include "Truth.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/served/OpenFloor.hpp"
 #include "ortung/server/FieldText.hpp"
 #include "ortung/server/ProcessorTime.hpp"
 #include "ortung/server/RobotPlugins.hpp"
@@ -376,10 +377,20 @@ std::vector<std::string> ServedSimulation::abilities(RobotId robot) const {
   return lines;
 }
 
+const std::vector<std::string>& ServedSimulation::floor() const {
+  if (floor_.empty()) {
+    const FieldRegion region = openFloor(simulation().world());
+    floor_ = floorText(region.grid, region.open);
+  }
+  return floor_;
+}
+
 std::vector<std::string> ServedSimulation::field() const {
   const SimWorld& world = simulation().world();
-  std::vector<std::string> lines = fieldText(fieldModelOf(world));
+  const FieldModel model = fieldModelOf(world);
+  std::vector<std::string> lines = fieldText(model);
   for (std::string& solid : solidText(world.solids())) lines.push_back(std::move(solid));
+  if (isFloor(model)) lines.insert(lines.end(), floor().begin(), floor().end());
   return lines;
 }
 

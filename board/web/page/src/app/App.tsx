@@ -1,5 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { Divider } from "../panels/Divider";
+import type { Board } from "../model/Board";
 import { GamePanel } from "../panels/Game";
 import { Help } from "../panels/Help";
 import { LocalizationPanel } from "../panels/Localization";
@@ -12,12 +13,17 @@ import { useBoard, usePage } from "../ui/context";
 import { kPanels, type Panel } from "../ui/Ui";
 import { FieldView } from "./FieldView";
 
-const kTitles: Record<Panel, string> = {
+const kTitles: Record<Exclude<Panel, "game">, string> = {
   robots: "Robots",
   sensors: "Sensors",
   localization: "Localization",
-  game: "Game",
 };
+
+/** What the panel of the world itself is called. */
+function titleOfWorld(board: Board): string {
+  if (board.kind === "record") return "Record";
+  return board.isGame ? "Game" : "World";
+}
 
 export function App() {
   const board = useBoard(250);
@@ -48,7 +54,7 @@ export function App() {
                 tabIndex={ui.panel === name ? 0 : -1}
                 onClick={() => ui.change({ panel: name })}
               >
-                {name === "game" && board.kind === "record" ? "Record" : kTitles[name]}
+                {name === "game" ? titleOfWorld(board) : kTitles[name]}
               </button>
             ))}
           </div>

@@ -1,10 +1,12 @@
 import { degrees, type Point, type Pose } from "../model/geometry";
+import { isPitch } from "../model/world";
 import type { Context } from "../ui/context";
 import { Cloud } from "./Cloud";
 import { FieldHands } from "./FieldHands";
 import type { HandledField } from "./HandledField";
 import { HeatLayer } from "./HeatLayer";
 import { Overlay } from "./Overlay";
+import { floorPalette } from "./palette";
 import { Rays, arrowsOf } from "./rays";
 import { Scene } from "./Scene";
 import { make } from "./svg";
@@ -24,6 +26,8 @@ export class FieldPainter implements HandledField {
   readonly svg: SVGSVGElement;
   problem = "";
   private readonly floor: HTMLDivElement;
+  /** Where the floor of a building is free. */
+  private readonly free = new HeatLayer(new Uint32Array(floorPalette().buffer));
   private readonly heat = new HeatLayer();
   private readonly canvas: HTMLCanvasElement;
   private readonly scene: Scene;
@@ -50,7 +54,8 @@ export class FieldPainter implements HandledField {
     this.canvas = document.createElement("canvas");
     this.canvas.setAttribute("aria-hidden", "true");
     this.svg = make("svg", { class: "over", role: "group", "aria-label": "Field: robots, ball and lines", tabindex: 0 });
-    this.place.replaceChildren(this.floor, this.heat.canvas, this.canvas, this.svg);
+    this.free.canvas.classList.add("free");
+    this.place.replaceChildren(this.floor, this.free.canvas, this.heat.canvas, this.canvas, this.svg);
     this.scene = new Scene(make("svg"), context.session.board);
     // The scene's groups live in the one SVG, below what hands draw.
     this.svg.append(...this.scene.svg.childNodes);
@@ -139,6 +144,7 @@ export class FieldPainter implements HandledField {
       view.fit(world.min, world.max, kMargin, kTools, kScale);
     }
     this.drawFloor();
+    this.free.draw(view, board.drawing.floor);
     this.heat.draw(view, ui.heat);
     this.scene.draw(view, ui.layers, this.held);
     this.drawCloud(needsAll);
@@ -151,6 +157,7 @@ export class FieldPainter implements HandledField {
     const a = this.view.toPixel({ x: world.min.x, y: world.max.y });
     const b = this.view.toPixel({ x: world.max.x, y: world.min.y });
     const { style } = this.floor;
+    this.floor.classList.toggle("pitch", isPitch(this.context.session.board.drawing));
     style.transform = `translate(${a.x}px, ${a.y}px)`;
     style.width = `${b.x - a.x}px`;
     style.height = `${b.y - a.y}px`;

@@ -5,7 +5,7 @@ import { fixed, make } from "./svg";
 /** What stands still: floor, lines, walls, goals, landmarks. In metres of the field. */
 export function drawGround(group: SVGGElement, world: World, drawing: Drawing): void {
   group.replaceChildren();
-  if (!drawing.lines.length && !drawing.walls.length) {
+  if (!drawing.lines.length && !drawing.walls.length && !drawing.floor) {
     make("rect", { ...box(world), class: "border" }, group);
   }
   for (const line of drawing.lines) {
@@ -16,6 +16,10 @@ export function drawGround(group: SVGGElement, world: World, drawing: Drawing): 
     );
   }
   for (const arc of drawing.arcs) drawArc(group, arc);
+  for (const solid of drawing.solids) {
+    const points = solid.points.map(({ x, y }) => `${fixed(x)},${fixed(y)}`).join(" ");
+    make("polygon", { points, class: "solid", fill: paint(solid.colour) }, group);
+  }
   for (const goal of drawing.goals) {
     const at = `translate(${goal.x} ${goal.y}) rotate(${(goal.theta * 180) / Math.PI})`;
     const area = { x: -goal.dx, y: -goal.dy, width: 2 * goal.dx, height: 2 * goal.dy };

@@ -27,7 +27,8 @@ export class HeatLayer {
   readonly canvas = document.createElement("canvas");
   private shown: Heat | null = null;
 
-  constructor() {
+  /** @param colours of the 256 values; of a map of p if there are none */
+  constructor(private readonly colours: Uint32Array = kClear) {
     this.canvas.className = "heat";
     this.canvas.setAttribute("aria-hidden", "true");
     this.canvas.hidden = true;
@@ -37,7 +38,7 @@ export class HeatLayer {
     if (heat !== this.shown) {
       this.shown = heat;
       this.canvas.hidden = heat === null;
-      if (heat) paintHeat(this.canvas, heat, kClear);
+      if (heat) paintHeat(this.canvas, heat, this.colours);
     }
     if (!heat) return;
     const corner = view.toPixel({ x: heat.x, y: heat.y + heat.rows * heat.step });

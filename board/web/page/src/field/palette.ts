@@ -60,3 +60,10 @@ export function heatPalette(opacity: number): Uint8Array {
   }
   return palette;
 }
+
+/** Of a building's floor only where it is free has a colour of its own: a light over whatever the page is below. */
+export function floorPalette(): Uint8Array {
+  const palette = new Uint8Array(256 * 4);
+  palette.set([255, 255, 255, 255], 255 * 4);
+  return palette;
+}

@@ -1,5 +1,5 @@
 import { Robot } from "./Robot";
-import { emptyDrawing, type Drawing, type World } from "./world";
+import { emptyDrawing, isPitch, type Drawing, type World } from "./world";
 import type { Pose } from "./geometry";
 
 /** A line that was said to the server, and what became of it. */
@@ -75,6 +75,12 @@ export class Board {
 
   get isOperator(): boolean {
     return this.link === "open" && this.role === "operator";
+  }
+
+  /** Whether it is a game, with a score: on a pitch, or because a referee has begun one. */
+  get isGame(): boolean {
+    if (this.kind !== "simulation") return false;
+    return isPitch(this.drawing) || (this.game.get("phase") ?? "free") !== "free";
   }
 
   can(command: string): boolean {

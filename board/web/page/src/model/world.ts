@@ -1,5 +1,6 @@
-import { numberOf, parseHead } from "../link/words";
+import { numberOf, parseHead, type Head } from "../link/words";
 import type { Point } from "./geometry";
+import type { Heat } from "./maps";
 
 /** What stands and lies on the field, as DESCRIBE world and DESCRIBE field tell. Lengths [m]. */
 export interface FieldLine { x0: number; y0: number; x1: number; y1: number; width: number; colour: string }
@@ -9,7 +10,12 @@ export interface FieldArc {
 export interface Wall { x0: number; y0: number; x1: number; y1: number; z0: number; z1: number; goal: boolean }
 export interface Goal { name: string; x: number; y: number; theta: number; dx: number; dy: number; height: number; colour: string }
 export interface Landmark { kind: string; id: string; x: number; y: number; z: number }
-export interface Drawing { lines: FieldLine[]; arcs: FieldArc[]; walls: Wall[]; goals: Goal[]; landmarks: Landmark[] }
+export interface Solid { z0: number; z1: number; colour: string; points: Point[] }
+export interface Drawing {
+  lines: FieldLine[]; arcs: FieldArc[]; walls: Wall[]; goals: Goal[]; landmarks: Landmark[]; solids: Solid[];
+  /** Where the floor of a building is free: 1 or 255 (free) a cell. */
+  floor: Heat | null;
+}
 
 export interface MovableKind { name: string; kind: string; radius: number; height: number; colour: string }
 export interface World {
@@ -33,7 +39,32 @@ export function colourOf(text: string | undefined, otherwise: string): string {
   return text !== undefined && kColour.test(text) ? text : otherwise;
 }
 
-export const emptyDrawing = (): Drawing => ({ lines: [], arcs: [], walls: [], goals: [], landmarks: [] });
+export const emptyDrawing = (): Drawing => ({
+  lines: [], arcs: [], walls: [], goals: [], landmarks: [], solids: [], floor: null,
+});
+
+/** Whether it is a field for a game: with paint or goals. A building has neither. */
+export const isPitch = ({ lines, arcs, goals }: Drawing): boolean => lines.length + arcs.length + goals.length > 0;
+
+const kMostCells = 1e6;
+
+/** A piece of the picture of a free floor: runs of cells, in turn closed and open. */
+function addFloor(drawing: Drawing, { words, keys }: Head): void {
+  const get = (key: string) => numberOf(keys, key, 0);
+  const [columns, rows, step] = [get("columns"), get("rows"), get("step_m")];
+  const isPicture = Number.isInteger(columns) && Number.isInteger(rows) && columns > 0 && rows > 0 && columns * rows <= kMostCells && step > 0;
+  if (!isPicture) return;
+  drawing.floor ??= { columns, rows, step, x: get("x_min_m"), y: get("y_min_m"), cells: new Uint8Array(columns * rows).fill(1) };
+  const { cells } = drawing.floor;
+  let at = get("from");
+  let isOpen = false;
+  for (const run of (words[1] ?? "").split(",").map(Number)) {
+    if (!Number.isInteger(run) || run < 0 || !Number.isInteger(at) || at < 0) return;
+    if (isOpen) cells.fill(255, at, at + run);
+    at += run;
+    isOpen = !isOpen;
+  }
+}
 
 export function parseWorld(lines: string[]): World {
   const first = parseHead(lines[0] ?? "").keys;
@@ -93,6 +124,14 @@ export function parseDrawing(lines: string[]): Drawing {
           name: keys.get("name") ?? words[1] ?? "goal", x: get("x_m"), y: get("y_m"), theta: get("theta_rad"),
           dx: get("dx_m"), dy: get("dy_m"), height: get("height_m", 1), colour: colourOf(keys.get("colour"), "grey"),
         });
+        break;
+      case "solid": {
+        const outline = parseOutline(line);
+        if (outline) drawing.solids.push({ ...outline, colour: outline.colour || "grey" });
+        break;
+      }
+      case "open":
+        addFloor(drawing, { words, keys });
         break;
       case "landmark":
         drawing.landmarks.push({

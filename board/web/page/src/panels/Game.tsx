@@ -15,12 +15,17 @@ export function GamePanel() {
   return (
     <>
       {board.kind === "record" && <Contents />}
-      {board.kind !== "record" && (
+      {board.isGame && (
         <Section title="Score">
           <Score />
         </Section>
       )}
-      {hasReferee && board.can("REFEREE") && (
+      {!board.isGame && board.kind === "simulation" && (
+        <Section title="Chance">
+          <Seed />
+        </Section>
+      )}
+      {hasReferee && board.isGame && board.can("REFEREE") && (
         <Section title="Referee">
           <Orders />
         </Section>
@@ -74,6 +79,33 @@ function Score() {
       )}
       <ErrorNote at="score" />
     </>
+  );
+}
+
+/** Where there is no game, starting over with another seed is seldom wanted: it has its place here. */
+function Seed() {
+  const { session } = usePage();
+  const { board } = session;
+  const [seed, setSeed] = useState("");
+  return (
+    <form
+      class="row"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void session.act(seed === "" ? "RESET" : `RESET seed=${seed}`, "time");
+      }}
+    >
+      <label>
+        <span class="key">seed</span>
+        <input
+          class="short" placeholder={board.status.get("seed") ?? ""} value={seed} inputMode="numeric" pattern="[0-9]*"
+          disabled={!board.isOperator} onInput={(event) => setSeed(event.currentTarget.value)}
+        />
+      </label>
+      <button type="submit" disabled={!board.isOperator} title="RESET: time, random numbers and robots start over">
+        Start over
+      </button>
+    </form>
   );
 }
 

@@ -13,7 +13,7 @@ export function TopBar() {
   const board = useBoard(100);
   const { ui } = usePage();
   const isLive = board.kind === "robot";
-  const scores = isLive || board.kind === "record" ? [] : scoresOf(board.game);
+  const scores = board.isGame ? scoresOf(board.game) : [];
   return (
     <header class="top">
       <h1>
@@ -85,7 +85,10 @@ function TimeControls() {
       {achieved !== undefined && (
         <span class="hint achieved" title="speed that is achieved">{Number(achieved).toFixed(2)}×</span>
       )}
-      {!isRecord && (
+      {!isRecord && !board.isGame && (
+        <Say line="RESET" at="time">Reset</Say>
+      )}
+      {board.isGame && (
         <form
           class="reset"
           onSubmit={(event) => {

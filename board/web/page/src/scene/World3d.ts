@@ -27,7 +27,7 @@ import { paint, robotColour } from "../field/palette";
 import { Rays, arrowsOf } from "../field/rays";
 import type { Board } from "../model/Board";
 import type { Robot } from "../model/Robot";
-import type { FieldArc, FieldLine } from "../model/world";
+import { isPitch, type FieldArc, type FieldLine } from "../model/world";
 import type { Layers } from "../ui/layers";
 
 const kPaint = 0.004;
@@ -146,7 +146,7 @@ export class World3d {
     if (!world) return;
     const width = world.max.x - world.min.x;
     const height = world.max.y - world.min.y;
-    const floor = new Mesh(new PlaneGeometry(width, height), new MeshLambertMaterial({ color: 0x2c6e4d }));
+    const floor = new Mesh(new PlaneGeometry(width, height), new MeshLambertMaterial({ color: isPitch(drawing) ? 0x2c6e4d : 0xc3cad2 }));
     floor.position.set((world.min.x + world.max.x) / 2, (world.min.y + world.max.y) / 2, 0);
     this.still.add(floor);
     for (const line of drawing.lines) this.still.add(lineOf(line));
@@ -157,6 +157,13 @@ export class World3d {
       const mesh = new Mesh(new BoxGeometry(length, 0.02, wall.z1 - wall.z0), new MeshLambertMaterial(look));
       mesh.position.set((wall.x0 + wall.x1) / 2, (wall.y0 + wall.y1) / 2, (wall.z0 + wall.z1) / 2);
       mesh.rotation.z = Math.atan2(wall.y1 - wall.y0, wall.x1 - wall.x0);
+      this.still.add(mesh);
+    }
+    for (const { points, z0, z1, colour } of drawing.solids) {
+      const shape = new Shape(points.map(({ x, y }) => ({ x, y }) as never));
+      const depth = Math.max(0.01, z1 - z0);
+      const mesh = new Mesh(new ExtrudeGeometry(shape, { depth, bevelEnabled: false }), new MeshLambertMaterial({ color: paint(colour) }));
+      mesh.position.z = z0;
       this.still.add(mesh);
     }
     for (const goal of drawing.goals) {

@@ -93,6 +93,8 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
 
  private:
   struct Guest;
+  /// Where a building's floor is free, for field(). Made once: that takes a while.
+  const std::vector<std::string>& floor() const;
   Guest& guest(RobotId robot) const;
   SimRobot& find(RobotId robot) const;
   Simulation& simulation() const { return run_->simulation(); }
@@ -124,7 +126,8 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   PluginFactory factory_;
   std::vector<std::string> plugins_;
   std::vector<std::string> playersHelp_;
-  std::vector<ServedObject> objects_;  ///< objects in the order of the simulation's things
+  std::vector<ServedObject> objects_;       ///< objects in the order of the simulation's things
+  mutable std::vector<std::string> floor_;  ///< of floor(); none before it is asked for
   std::unique_ptr<SceneRun> run_;
   std::unique_ptr<Truth> truth_;
   double load_ = 0.0;
