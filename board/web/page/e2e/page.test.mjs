@@ -530,6 +530,39 @@ describe("the page of a record that is weighed", () => {
     await page.close();
   });
 
+  it("has two runs side by side, seen alike, or upon each other", async () => {
+    const program = await startProgram(["view", at("run.rec"), at("run.rec"), "--tables", at("f2000.ortung")]);
+    const page = await openPage(browser, `${program.url}&panel=localization`);
+    const fields = page.getByRole("region", { name: /^Field of run/ });
+    await until("there are two fields", async () => (await fields.count()) === 2);
+    const scales = () => page.locator(".over").evaluateAll((all) =>
+      all.map((svg) => svg.querySelector("g").getAttribute("transform").split(" ", 4).join(" ")));
+    await until("each is drawn", async () => (await page.getByRole("img", { name: /^run(-2)? at / }).count()) === 2);
+    const [before] = await scales();
+    const box = await fields.last().boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.wheel(0, -400);
+    await until("both are larger", async () => {
+      const [a, b] = await scales();
+      return a === b && a !== before;
+    });
+    await page.getByRole("button", { name: "run-2", exact: true }).click();
+    await page.getByRole("heading", { name: "Estimated pose of run-2" }).waitFor();
+    // It is the same record with the same seed: nothing is between its two localizations.
+    await page.locator(".chart figcaption", { hasText: /from run 0\.00 m/ }).waitFor();
+    await checkAccess(page, "side-by-side");
+    await page.getByRole("button", { name: "Side by side" }).click();
+    await until("there is one field", async () => (await fields.count()) === 0);
+    await until("their names do not lie upon each other", async () => {
+      const ys = await page.locator(".name").evaluateAll((all) => all.filter((one) => one.textContent).map((one) => Number(one.getAttribute("y"))));
+      return ys.length === 2 && Math.abs(ys[0] - ys[1]) >= 12;
+    });
+    await page.screenshot({ path: join(out, "upon-each-other.png") });
+    assert.deepEqual(page.problems, []);
+    await page.close();
+    await program.stop();
+  });
+
   it("shows what there is of a record of which nothing is known", async () => {
     const lines = at("lines.txt");
     run(["import", "record", at("run.rec"), "--out", lines]);

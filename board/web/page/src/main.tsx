@@ -10,6 +10,7 @@ import { Session } from "./model/Session";
 import type { World } from "./model/world";
 import { PageContext, type Context } from "./ui/context";
 import { installKeys } from "./ui/keys";
+import { areApart } from "./ui/apart";
 import { Ui } from "./ui/Ui";
 
 const address = parseAddress(location.hash);
@@ -35,8 +36,10 @@ const settle = () => {
   const { board } = session;
   insight.wantsExpected = ui.layers.expected;
   insight.wantsLocalize = board.robot !== null;
-  if (session.wishes.samples !== ui.layers.samples) {
+  const isApart = areApart(board, ui);
+  if (session.wishes.samples !== ui.layers.samples || session.wishes.all !== isApart) {
     session.wishes.samples = ui.layers.samples;
+    session.wishes.all = isApart;
     session.wish();
   }
   if (board.world !== world) {

@@ -1,5 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { View, niceLength } from "../src/field/View";
+import { Seen, View, niceLength } from "../src/field/View";
+import { areApart, canBeApart } from "../src/ui/apart";
+import { Board } from "../src/model/Board";
+import { Robot } from "../src/model/Robot";
 import { compose, ellipseOf, inverse, wrap } from "../src/model/geometry";
 
 function viewOf(width: number, height: number): View {
@@ -16,6 +19,30 @@ describe("a view of the field", () => {
     expect(view.toPixel({ x: 0, y: 0 })).toEqual({ x: 400, y: 300 });
     expect(view.toPixel({ x: -7, y: 0 }).x).toBeCloseTo(0);
     expect(view.toPixel({ x: 0, y: 5 }).y).toBeLessThan(300);
+  });
+
+  it("is the same for fields side by side", () => {
+    const seen = new Seen();
+    const [one, other] = [new View(seen), new View(seen)];
+    one.width = other.width = 400;
+    one.height = other.height = 300;
+    one.zoom(2, { x: 100, y: 50 });
+    other.pan(30, -20);
+    expect(one.matrix).toBe(other.matrix);
+    expect(other.isFree).toBe(true);
+    expect(new View().isFree).toBe(false);
+  });
+
+  it("has a field each for two to six records", () => {
+    const board = new Board();
+    const ui = { isOneField: false, is3d: false };
+    const fill = (count: number) => (board.robots = new Map(Array.from({ length: count }, (_, i) => [i + 1, new Robot(i + 1)])));
+    board.kind = "record";
+    expect([1, 2, 6, 7].map((count) => (fill(count), canBeApart(board)))).toEqual([false, true, true, false]);
+    fill(2);
+    expect([areApart(board, ui), areApart(board, { ...ui, isOneField: true }), areApart(board, { ...ui, is3d: true })]).toEqual([true, false, false]);
+    board.kind = "simulation";
+    expect(areApart(board, ui)).toBe(false);
   });
 
   it("turns pixels into the field and back", () => {

@@ -1,8 +1,11 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { FieldPainter } from "../field/FieldPainter";
+import { robotColour } from "../field/palette";
+import { Seen } from "../field/View";
 import { Icon } from "../panels/Icon";
 import { lazyScene3d } from "../scene/lazy";
 import type { Scene3dHandle } from "../scene/Scene3d";
+import { areApart, canBeApart } from "../ui/apart";
 import { usePage, useBoard } from "../ui/context";
 import { kLayerNames, kLayers } from "../ui/layers";
 
@@ -14,25 +17,42 @@ export function FieldView() {
   const context = usePage();
   const { ui, session } = context;
   const board = useBoard(200);
-  const stage = useRef<HTMLDivElement>(null);
-  const painter = useRef<FieldPainter | null>(null);
+  const painters = useRef(new Set<FieldPainter>());
+  const seen = useRef(new Seen());
   const [problem, setProblem] = useState("");
-  useEffect(() => {
-    const made = new FieldPainter(stage.current!, context);
-    painter.current = made;
-    setProblem(made.problem);
-    return () => made.stop();
-  }, [context]);
-  const view = () => painter.current!;
+  const isApart = areApart(board, ui);
+  const robots = [...board.robots.values()];
+  const view = () => [...painters.current][0];
+  const stage = (only: number | null) => (
+    <Stage only={only} seen={seen.current} painters={painters.current} onProblem={setProblem} />
+  );
   return (
     <div class="field">
-      <div class="stage2d" ref={stage} hidden={ui.is3d} />
+      {isApart ? (
+        <div class={`fields many-${robots.length}`} hidden={ui.is3d}>
+          {robots.map((robot) => (
+            <section key={robot.number} class="one" aria-label={`Field of ${robot.label}`}>
+              <button
+                class="whose"
+                aria-pressed={board.selected === robot.number}
+                style={{ "--run": robotColour(robot, true) }}
+                onClick={() => session.select(robot.number)}
+              >
+                {robot.label}
+              </button>
+              {stage(robot.number)}
+            </section>
+          ))}
+        </div>
+      ) : (
+        <div class="fields" hidden={ui.is3d}>{stage(null)}</div>
+      )}
       {ui.is3d && <Scene3d />}
       {problem && <p class="error on-field" role="alert">{problem}</p>}
       <div class="tools left" role="toolbar" aria-label="View">
-        <button title="Larger (+)" aria-label="Larger" onClick={() => view().zoomBy(1.3)}><Icon name="plus" /></button>
-        <button title="Smaller (-)" aria-label="Smaller" onClick={() => view().zoomBy(1 / 1.3)}><Icon name="minus" /></button>
-        <button title="Whole field (0)" aria-label="Whole field" onClick={() => view().fit()}><Icon name="fit" /></button>
+        <button title="Larger (+)" aria-label="Larger" onClick={() => view()?.zoomBy(1.3)}><Icon name="plus" /></button>
+        <button title="Smaller (-)" aria-label="Smaller" onClick={() => view()?.zoomBy(1 / 1.3)}><Icon name="minus" /></button>
+        <button title="Whole field (0)" aria-label="Whole field" onClick={() => view()?.fit()}><Icon name="fit" /></button>
         <button
           title="Follow the selected robot (f)"
           aria-label="Follow the selected robot"
@@ -49,6 +69,16 @@ export function FieldView() {
         >
           <Icon name="measure" />
         </button>
+        {canBeApart(board) && (
+          <button
+            title="Runs side by side, or upon each other"
+            aria-label="Side by side"
+            aria-pressed={isApart}
+            onClick={() => ui.change({ isOneField: isApart, is3d: false })}
+          >
+            <Icon name="apart" />
+          </button>
+        )}
         {!isExported && (
           <button
             title="The same in three dimensions (v)"
@@ -98,6 +128,24 @@ export function FieldView() {
       )}
     </div>
   );
+}
+
+/** One field, drawn by a FieldPainter. */
+function Stage({ only, seen, painters, onProblem }: {
+  only: number | null; seen: Seen; painters: Set<FieldPainter>; onProblem(text: string): void;
+}) {
+  const context = usePage();
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const made = new FieldPainter(place.current!, context, only, seen);
+    painters.add(made);
+    onProblem(made.problem);
+    return () => {
+      painters.delete(made);
+      made.stop();
+    };
+  }, [context, only]);
+  return <div class="stage2d" ref={place} />;
 }
 
 function Scene3d() {

@@ -1,4 +1,5 @@
 import { degrees, type Point, type Pose } from "../model/geometry";
+import type { Robot } from "../model/Robot";
 import { isPitch } from "../model/world";
 import type { Context } from "../ui/context";
 import { Cloud } from "./Cloud";
@@ -10,7 +11,7 @@ import { floorPalette } from "./palette";
 import { Rays, arrowsOf } from "./rays";
 import { Scene } from "./Scene";
 import { make } from "./svg";
-import { View } from "./View";
+import { Seen, View } from "./View";
 
 const kFramesCounted = 30;
 const kSpokenPeriod = 500;
@@ -20,7 +21,7 @@ const kScale = 14;
 
 /** Draws the field when something on it is new, at most once a frame of the screen. */
 export class FieldPainter implements HandledField {
-  readonly view = new View();
+  readonly view: View;
   readonly held = new Map<string, Pose>();
   readonly overlay: Overlay;
   readonly svg: SVGSVGElement;
@@ -45,10 +46,17 @@ export class FieldPainter implements HandledField {
   private isDirty = true;
   private times: number[] = [];
 
+  /**
+   * @param only the one robot that is on this field; null: all of them
+   * @param seen what is seen of it; fields side by side share that
+   */
   constructor(
     private readonly place: HTMLElement,
     readonly context: Context,
+    private readonly only: number | null = null,
+    seen = new Seen(),
   ) {
+    this.view = new View(seen);
     this.floor = document.createElement("div");
     this.floor.className = "floor";
     this.canvas = document.createElement("canvas");
@@ -56,7 +64,7 @@ export class FieldPainter implements HandledField {
     this.svg = make("svg", { class: "over", role: "group", "aria-label": "Field: robots, ball and lines", tabindex: 0 });
     this.free.canvas.classList.add("free");
     this.place.replaceChildren(this.floor, this.free.canvas, this.heat.canvas, this.canvas, this.svg);
-    this.scene = new Scene(make("svg"), context.session.board);
+    this.scene = new Scene(make("svg"), context.session.board, only);
     // The scene's groups live in the one SVG, below what hands draw.
     this.svg.append(...this.scene.svg.childNodes);
     this.overlay = new Overlay(this.svg, this.place);
@@ -72,6 +80,12 @@ export class FieldPainter implements HandledField {
     this.request = requestAnimationFrame(() => this.tick());
   }
 
+  /** The robot whose readings and belief are drawn. */
+  private get robot(): Robot | null {
+    const { board } = this.context.session;
+    return this.only === null ? board.robot : (board.robots.get(this.only) ?? null);
+  }
+
   stop(): void {
     cancelAnimationFrame(this.request);
     clearInterval(this.speaking);
@@ -82,6 +96,8 @@ export class FieldPainter implements HandledField {
 
   dirty(): void {
     this.isDirty = true;
+    // Fields beside this one see the same.
+    if (this.only !== null) this.context.ui.redraw();
   }
 
   fit(): void {
@@ -135,7 +151,7 @@ export class FieldPainter implements HandledField {
     const { session, ui } = this.context;
     const { board } = session;
     const world = board.world!;
-    const robot = board.robot;
+    const { robot } = this;
     if (ui.follow && robot?.pose) {
       view.x = robot.pose.x;
       view.y = robot.pose.y;
@@ -145,11 +161,12 @@ export class FieldPainter implements HandledField {
     }
     this.drawFloor();
     this.free.draw(view, board.drawing.floor);
-    this.heat.draw(view, ui.heat);
+    const isOfSelected = robot === board.robot;
+    this.heat.draw(view, isOfSelected ? ui.heat : null);
     this.scene.draw(view, ui.layers, this.held);
     this.drawCloud(needsAll);
     overlay.drawScale(view);
-    overlay.drawAsked(view, ui.asked);
+    overlay.drawAsked(view, isOfSelected ? ui.asked : null);
   }
 
   private drawFloor(): void {
@@ -176,8 +193,8 @@ export class FieldPainter implements HandledField {
   }
 
   private takeSamples(cloud: Cloud): boolean {
-    const { session, ui } = this.context;
-    const samples = (ui.layers.samples && session.board.robot?.heldOf("samples")?.words) || null;
+    const { ui } = this.context;
+    const samples = (ui.layers.samples && this.robot?.heldOf("samples")?.words) || null;
     if (samples === this.drawnSamples) return false;
     cloud.setArrows(samples ? arrowsOf(samples) : new Float32Array());
     this.drawnSamples = samples;
@@ -186,14 +203,15 @@ export class FieldPainter implements HandledField {
 
   private takeRays(cloud: Cloud): boolean {
     const { session, ui } = this.context;
-    const { robot } = session.board;
+    const { robot } = this;
+    const expected = robot === session.board.robot ? ui.expected : null;
     if (ui.layers.along && robot && !robot.along) void session.past.learnScans(robot);
-    const inputs = [session.readings, ui.layers, ui.expected, robot, robot?.along?.length];
+    const inputs = [robot?.version, ui.layers, expected, robot, robot?.along?.length];
     if (inputs.every((input, i) => input === this.rayInputs[i])) return false;
     this.rayInputs = inputs;
     const rays = new Rays();
     if (robot && ui.layers.along) rays.addAlong(robot);
-    if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, ui.expected);
+    if (robot && (ui.layers.rays || ui.layers.sightings || ui.layers.expected)) rays.add(robot, ui.layers, expected);
     cloud.setLines(new Float32Array(rays.lines));
     cloud.setDots(new Float32Array(rays.dots));
     return true;
@@ -205,7 +223,7 @@ export class FieldPainter implements HandledField {
   }
 
   describe(at: Point): string {
-    const robot = this.context.session.board.robot?.pose;
+    const robot = this.robot?.pose;
     const away = robot ? Math.hypot(at.x - robot.x, at.y - robot.y) : null;
     const bearing = robot ? degrees(Math.atan2(at.y - robot.y, at.x - robot.x)) : 0;
     const relative = away === null ? "" : `   ${away.toFixed(2)} m, ${bearing.toFixed(0)}° from the robot`;

@@ -10,6 +10,10 @@ import { paint, robotColour } from "./palette";
 import { fixed, make, set } from "./svg";
 import type { View } from "./View";
 
+/** Of names [pixels]. */
+const kHalfLetter = 3.8;
+const kLine = 14;
+
 interface Drawn {
   group: SVGGElement;
   parts: { element: SVGElement; outline: Outline }[];
@@ -39,6 +43,7 @@ export class Scene {
   constructor(
     readonly svg: SVGSVGElement,
     private readonly board: Board,
+    private readonly only: number | null = null,
   ) {
     svg.replaceChildren();
     this.ground = make("g", { "aria-hidden": "true" }, svg);
@@ -50,11 +55,21 @@ export class Scene {
     this.labels = make("g", { "aria-hidden": "true", class: "labels" }, svg);
   }
 
+  private get shown(): Robot[] {
+    return [...this.board.robots.values()].filter(({ number }) => this.only === null || number === this.only);
+  }
+
+  /** The robot whose belief is drawn. */
+  private get robot(): Robot | null {
+    return this.only === null ? this.board.robot : (this.board.robots.get(this.only) ?? null);
+  }
+
   draw(view: View, layers: Layers, held: Map<string, Pose>): void {
     const { board } = this;
     if (this.scene !== board.scene) this.rebuild();
     for (const group of [this.ground, this.changes, this.ways, this.trails, this.beliefs, this.movers]) set(group, "transform", view.matrix);
-    for (const robot of board.robots.values()) this.drawRobot(robot, view, layers, held.get(`robot=${robot.number}`));
+    for (const robot of this.shown) this.drawRobot(robot, view, layers, held.get(`robot=${robot.number}`));
+    if (layers.names) this.spreadNames();
     for (const object of board.objects) this.drawObject(object, view, held.get(`object=${object.name}`));
     this.drawChanges(layers);
     this.drawBeliefs(view, layers);
@@ -73,7 +88,7 @@ export class Scene {
       this.drop(drawn);
       this.robots.delete(number);
     }
-    for (const robot of board.robots.values()) this.buildRobot(robot);
+    for (const robot of this.shown) this.buildRobot(robot);
     for (const drawn of this.objects.values()) this.drop(drawn);
     this.objects.clear();
     for (const object of board.world?.objects ?? []) this.buildObject(object);
@@ -166,6 +181,20 @@ export class Scene {
     }
   }
 
+  /** Names that would lie upon others stand above them. */
+  private spreadNames(): void {
+    const placed: { x: number; y: number; half: number }[] = [];
+    for (const { label } of this.robots.values()) {
+      const x = Number(label.getAttribute("x"));
+      let y = Number(label.getAttribute("y"));
+      const half = (label.textContent?.length ?? 0) * kHalfLetter;
+      const isCovered = () => placed.some((one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - y) < kLine);
+      for (let i = 0; i < placed.length && isCovered(); ++i) y -= kLine;
+      placed.push({ x, y, half });
+      set(label, "y", fixed(y, 0));
+    }
+  }
+
   private drawObject(object: MovableState, view: View, held: Pose | undefined): void {
     const drawn = this.objects.get(object.name);
     if (!drawn) return;
@@ -180,7 +209,7 @@ export class Scene {
 
   /** Squares where the selected robot is sure that the map no longer fits; they change seldom. */
   private drawChanges(layers: Layers): void {
-    const words = (layers.changes && this.board.robot?.heldOf("changes")?.words) || null;
+    const words = (layers.changes && this.robot?.heldOf("changes")?.words) || null;
     if (words === this.drawn) return;
     this.drawn = words;
     this.changes.replaceChildren();
@@ -195,7 +224,7 @@ export class Scene {
   }
 
   private drawBeliefs(view: View, layers: Layers): void {
-    const { robot } = this.board;
+    const { robot } = this;
     this.beliefs.replaceChildren();
     if (!robot) return;
     if (layers.ghost && robot.ghost) this.outlineAt(robot, robot.ghost, "ghost");

@@ -3,10 +3,8 @@ import type { Point } from "../model/geometry";
 const kSmallest = 2;
 const kLargest = 4000;
 
-/** What part of the field is seen: field metres to pixels of a view, y upwards. */
-export class View {
-  width = 1;
-  height = 1;
+/** What part of the field is seen; views of several fields side by side share one. */
+export class Seen {
   /** Field point in the middle of the view [m]. */
   x = 0;
   y = 0;
@@ -14,6 +12,39 @@ export class View {
   scale = 60;
   /** Whether the user has moved it; otherwise the view fits itself to the field. */
   isFree = false;
+}
+
+/** Field metres to pixels of a view, y upwards. */
+export class View {
+  width = 1;
+  height = 1;
+
+  constructor(private readonly seen = new Seen()) {}
+
+  get x(): number {
+    return this.seen.x;
+  }
+  set x(value: number) {
+    this.seen.x = value;
+  }
+  get y(): number {
+    return this.seen.y;
+  }
+  set y(value: number) {
+    this.seen.y = value;
+  }
+  get scale(): number {
+    return this.seen.scale;
+  }
+  set scale(value: number) {
+    this.seen.scale = value;
+  }
+  get isFree(): boolean {
+    return this.seen.isFree;
+  }
+  set isFree(value: boolean) {
+    this.seen.isFree = value;
+  }
 
   toPixel({ x, y }: Point): Point {
     return { x: this.width / 2 + (x - this.x) * this.scale, y: this.height / 2 - (y - this.y) * this.scale };

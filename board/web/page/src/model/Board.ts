@@ -22,6 +22,8 @@ export interface MovableState extends Pose { name: string; z: number }
 export interface Wishes {
   samples: boolean;
   pictures: Set<string>;
+  /** Of all robots, not of the selected one alone. */
+  all: boolean;
 }
 
 const kMostSaid = 300;

@@ -46,6 +46,8 @@ export class Robot {
   turn = 2;
   manipulators: { name: string; states: string[] }[] = [];
   readonly readings = new Map<string, Held>();
+  /** Counts what came of them. */
+  version = 0;
   trail: Point[] = [];
   /** Where it was lately, to compare with estimates that come later. */
   private past: Moment[] = [];
@@ -159,6 +161,7 @@ export class Robot {
     this.trail = [];
     this.past = [];
     this.readings.clear();
+    this.version++;
     this.odometryOrigin = null;
   }
 

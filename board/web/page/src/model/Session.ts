@@ -24,7 +24,7 @@ const kTruth = "reference/groundTruth/pose";
 export class Session {
   readonly board = new Board();
   readonly history = new History();
-  readonly wishes: Wishes = { samples: true, pictures: new Set() };
+  readonly wishes: Wishes = { samples: true, pictures: new Set(), all: false };
   readonly connection: Connection;
   /** For what takes long: maps, and why a place is probable. */
   readonly side: SideLine;
@@ -131,9 +131,9 @@ export class Session {
     try {
       if (this.board.hasWorldTruth) this.takeReadings(0, await this.ask("READ robot=0 form=binary"));
       else await this.readTruth();
-      const { robot } = this.board;
-      if (robot && this.wanted(robot).length) {
-        this.takeReadings(robot.number, await this.ask(`READ robot=${robot.number} form=binary ${this.wanted(robot).join(" ")}`));
+      for (const robot of this.followed) {
+        const features = this.wanted(robot);
+        if (features.length) this.takeReadings(robot.number, await this.ask(`READ robot=${robot.number} form=binary ${features.join(" ")}`));
       }
     } catch {
       // the connection is gone: all is read anew with the next one
@@ -339,22 +339,31 @@ export class Session {
       .slice(0, kMostQueries);
   }
 
-  /** Subscribes to what is wanted of the selected robot. */
+  /** The robots whose readings are looked at. */
+  private get followed(): Robot[] {
+    const { board, wishes } = this;
+    return wishes.all ? [...board.robots.values()] : board.robot ? [board.robot] : [];
+  }
+
+  /** Subscribes to what is wanted of them, and ends what was subscribed of others. */
   private async follow(): Promise<void> {
-    const { board } = this;
-    const robot = board.robot;
-    if (!robot) return;
-    const features = this.wanted(robot);
+    const { board, followed } = this;
     const period = plain(kFeaturePeriod * this.hurry);
-    const line = `SUBSCRIBE robot=${robot.number} period_s=${period}${this.ahead} form=binary ${features.join(" ")}`;
-    if (line === this.subscribed || !features.length) return;
-    const before = / robot=(\d+) /.exec(this.subscribed)?.[1];
-    this.subscribed = line;
+    const wanted = followed.map((robot) => ({ robot, features: this.wanted(robot) })).filter(({ features }) => features.length);
+    const lines = wanted.map(({ robot, features }) =>
+      `SUBSCRIBE robot=${robot.number} period_s=${period}${this.ahead} form=binary ${features.join(" ")}`);
+    if (!lines.length || lines.join("\n") === this.subscribed) return;
+    const before = [...this.subscribed.matchAll(/ robot=(\d+) /g)].map(([, number]) => Number(number));
+    this.subscribed = lines.join("\n");
     try {
-      if (before && Number(before) !== robot.number && board.hasWorldTruth) await this.tryAsk(`UNSUBSCRIBE robot=${before}`);
-      await this.tryAsk(line);
-      const newest = await this.tryAsk(`READ robot=${robot.number} form=binary ${features.join(" ")}`);
-      if (newest) this.takeReadings(robot.number, newest);
+      for (const number of before) {
+        if (board.hasWorldTruth && wanted.every(({ robot }) => robot.number !== number)) await this.tryAsk(`UNSUBSCRIBE robot=${number}`);
+      }
+      for (const line of lines) await this.tryAsk(line);
+      for (const { robot, features } of wanted) {
+        const newest = await this.tryAsk(`READ robot=${robot.number} form=binary ${features.join(" ")}`);
+        if (newest) this.takeReadings(robot.number, newest);
+      }
     } catch (error) {
       if (!(error instanceof BoardError)) throw error;
     }
@@ -403,6 +412,7 @@ export class Session {
         if (!board.hasWorldTruth && reading.feature === kTruth) this.takeTruth(robot, reading);
         if (number === board.selected) this.history.take(robot, reading);
       }
+      robot.version++;
       if (number === board.selected) this.readings++;
     }
     board.frame++;

@@ -17,13 +17,16 @@ export function Curves({ only }: { only?: string[] }) {
   const shown = [...session.history.series.values()].filter(
     ({ key }) => only === undefined || only.some((begin) => key.startsWith(begin)),
   );
-  const units = [...new Set(shown.map(({ unit }) => unit))];
+  // Runs are far apart where they are metres from each other: errors of centimetres have a chart of their own.
+  const groupOf = ({ key, unit }: Series) => (key.startsWith("apart") ? `${unit} apart` : unit);
+  const groups = [...new Set(shown.map(groupOf))];
   if (!shown.length) return null;
   return (
     <Section title="Over time">
-      {units.map((unit) => {
-        const series = shown.filter((one) => one.unit === unit);
-        return <Chart key={`${unit} ${series.map(({ key }) => key).join()}`} series={series} unit={unit} />;
+      {groups.map((group) => {
+        const series = shown.filter((one) => groupOf(one) === group);
+        const { unit } = series[0]!;
+        return <Chart key={`${group} ${series.map(({ key }) => key).join()}`} series={series} unit={unit} />;
       })}
       {only === undefined && (
         <button

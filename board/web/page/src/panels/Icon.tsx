@@ -11,6 +11,7 @@ const kPaths = {
   auto: "M14 8A6 6 0 1 1 2 8a6 6 0 0 1 12 0M8 2v12M8 5h5M8 8h6M8 11h5",
   light: "M11 8a3 3 0 1 1-6 0a3 3 0 0 1 6 0M8 1v1.5M8 13.5V15M1 8h1.5M13.5 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1",
   dark: "M13 10A6 6 0 1 1 6 3a5 5 0 0 0 7 7z",
+  apart: "M1 3h6v10H1zM9 3h6v10H9z",
   curve: "M1 11c3-9 4-9 7-3s4 6 7-3",
 } as const;
 

@@ -19,6 +19,7 @@ interface Kept {
   panel: Panel;
   layers: Layers;
   isLogOpen: boolean;
+  isOneField: boolean;
   sideWidth: number;
   fieldHeight: number;
 }
@@ -36,6 +37,8 @@ export class Ui {
   fieldHeight = kFieldHeight.usual;
   isHelpOpen = false;
   is3d = false;
+  /** Whether runs lie upon each other, instead of side by side. */
+  isOneField = false;
   follow = false;
   tool: Tool = "look";
   drivesByKeys = false;
@@ -99,6 +102,7 @@ export class Ui {
       if (kept.theme === "light" || kept.theme === "dark") this.theme = kept.theme;
       if (kept.panel && kPanels.includes(kept.panel)) this.panel = kept.panel;
       this.isLogOpen = kept.isLogOpen === true;
+      this.isOneField = kept.isOneField === true;
       this.sideWidth = sizeOf(kept.sideWidth, kSideWidth);
       this.fieldHeight = sizeOf(kept.fieldHeight, kFieldHeight);
       for (const name of kLayerNames) {
@@ -111,9 +115,9 @@ export class Ui {
   }
 
   private keep(): void {
-    const { theme, panel, layers, isLogOpen, sideWidth, fieldHeight } = this;
+    const { theme, panel, layers, isLogOpen, isOneField, sideWidth, fieldHeight } = this;
     try {
-      localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen, sideWidth, fieldHeight } satisfies Kept));
+      localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen, isOneField, sideWidth, fieldHeight } satisfies Kept));
     } catch {
       // as above
     }
