@@ -81,6 +81,44 @@ TEST(ServedPlayers, OfASceneComeBackAtAResetWhoeverHadTheirNamesMeanwhile) {
   }
 }
 
+TEST(ServedPlayers, GetTheirRobotsBackThatClientsHaveTaken) {
+  Scene scene;
+  scene.world = kField;
+  SceneRobot robot;
+  robot.file = kRobot;
+  robot.name = "anna";
+  robot.wanders = true;
+  scene.robots.push_back(robot);
+  ServedSimulation world(scene, {.noise = false});
+  const RunningBoard board(world, withPlayers(world));
+  TestClient client(board.port());
+  ASSERT_TRUE(client.ask("HELLO ortung/1 role=operator").starts_with("OK"));
+  client.ask("PAUSE");
+  const auto listed = [&] {
+    client.ask("LIST robots");
+    return client.line();
+  };
+  EXPECT_EQ(listed(), "robot=1 name=anna client=0 player=wander");
+  EXPECT_TRUE(client.ask("RETURN robot=1").starts_with("ERR no-player robot 1 was not taken"));
+  for (const char* command : {"VELOCITY v_m_s=0 robot=1", "MOTION 0 0 robot=1"}) {
+    ASSERT_TRUE(client.ask(command).starts_with("OK"));
+    ASSERT_EQ(client.ask("STEP cycles=2"), "OK STEP");
+    EXPECT_EQ(listed(), "robot=1 name=anna client=0 taken_from=wander") << command;
+    EXPECT_EQ(client.ask("PLAYERS"), "OK PLAYERS");
+    EXPECT_EQ(client.ask("RETURN robot=1"), "OK RETURN robot=1");
+    EXPECT_EQ(listed(), "robot=1 name=anna client=0 player=wander");
+    ASSERT_EQ(client.ask("STEP cycles=100"), "OK STEP");
+    EXPECT_EQ(listed(), "robot=1 name=anna client=0 player=wander") << "it stays";
+  }
+  for (const char* request : {"RETURN", "RETURN robot=9", "RETURN robot=x", "RETURN robot=1 y=1"})
+    EXPECT_TRUE(client.ask(request).starts_with("ERR ")) << request;
+  // At a reset it is its player's from the beginning.
+  client.ask("VELOCITY v_m_s=0 robot=1");
+  client.ask("STEP");
+  EXPECT_TRUE(client.ask("RESET").starts_with("OK"));
+  EXPECT_EQ(listed(), "robot=1 name=anna client=0 player=wander");
+}
+
 TEST(ServedPlayers, ComeOnlyWhileThereIsRoomForTheirCosts) {
   ServedSimulation world(kField, {.noise = false});
   BoardConfig config = controlledConfig();

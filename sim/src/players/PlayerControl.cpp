@@ -42,6 +42,7 @@ struct PlayerControl::Parts {
     RobotNumber number = 0;    ///< the robot's number, which is never reused
     bool isGuest = false;
     bool isOver = false;
+    PlayerWish wish;  ///< how it was made, to make it again
   };
 
   Simulation& simulation;
@@ -57,7 +58,9 @@ struct PlayerControl::Parts {
   std::vector<Heard> said;                       ///< messages sent in this cycle
   std::atomic<const Seating*> called = nullptr;  ///< whose function is under way; null: nobody's
   std::atomic<bool> isAbandoned = false;         ///< see abandon()
-  std::atomic<bool> isStill = false;             ///< the simulation's thread waits for the end
+  /// Players of robots that were commanded from outside; who plays them now is nobody.
+  std::map<RobotNumber, PlayerWish> taken;
+  std::atomic<bool> isStill = false;  ///< the simulation's thread waits for the end
 
   Parts(Simulation& s, FloorPlans& p, PluginFactory& f, const Config& c)
       : simulation(s),
@@ -122,6 +125,8 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   seating->orders = robot.orders();
   seating->number = robot.state().number;
   seating->isGuest = isGuest;
+  seating->wish = wish;
+  taken.erase(seating->number);
   seating->seat->setTime(simulation.now());
   if (!wish.team.empty()) {
     teams[name] = wish.team;
@@ -275,7 +280,10 @@ bool PlayerControl::Parts::abandon(std::chrono::duration<double> patience) {
 void PlayerControl::Parts::drop() {
   for (const auto& one : seatings) {
     if (one->isOver) continue;
-    one->isOver = !isThere(*one) || (one->isGuest && one->seat->simRobot().orders() != one->orders);
+    const bool isTaken =
+        isThere(*one) && one->isGuest && one->seat->simRobot().orders() != one->orders;
+    one->isOver = isTaken || !isThere(*one);
+    if (isTaken) taken.insert_or_assign(one->number, one->wish);
   }
 }
 
@@ -303,6 +311,19 @@ std::unique_ptr<Player> PlayerControl::make(const PlayerWish& wish) {
 
 void PlayerControl::lead(SimRobot& robot, const PlayerWish& wish, const Random& random) {
   parts_->sit(robot, make(wish), wish, random, true);
+}
+
+std::string PlayerControl::takenFrom(const SimRobot& robot) const {
+  const auto found = parts_->taken.find(robot.state().number);
+  return found == parts_->taken.end() ? "" : found->second.plugin;
+}
+
+bool PlayerControl::giveBack(SimRobot& robot, const Random& random) {
+  const auto found = parts_->taken.find(robot.state().number);
+  if (found == parts_->taken.end()) return false;
+  const PlayerWish wish = found->second;
+  lead(robot, wish, random);
+  return true;
 }
 
 void PlayerControl::own(SimRobot& robot, std::unique_ptr<Player> player, const PlayerWish& wish,

@@ -1,6 +1,7 @@
 #include "ortung/served/PlayerCommands.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "ortung/base/Time.hpp"
@@ -11,6 +12,8 @@ namespace ortung {
 namespace {
 
 using Role = BoardCommand::Role;
+
+constexpr std::int64_t kLastRobot = 0xFFFFFFFF;
 
 /// What a client wants, as the text of a player. It names shipped robot files only, never a path.
 PlayerWish wishOf(ServedSimulation& simulation, const BoardCommand::Call& call) {
@@ -70,7 +73,7 @@ BoardCommand::Reply eventsSince(const ServedSimulation& simulation, std::uint64_
 }  // namespace
 
 std::vector<BoardCommand> playerCommands(ServedSimulation& simulation, const PlayLimits& limits) {
-  std::vector<BoardCommand> commands(6);
+  std::vector<BoardCommand> commands(7);
   commands[0] = {
       "PLAY", "PLUGIN [team=T] [name=N] [start=x,y,deg] [option=value ...]: starts a player",
       Role::kOperator, [&simulation, limits](const BoardCommand::Call& call) {
@@ -107,6 +110,15 @@ std::vector<BoardCommand> playerCommands(ServedSimulation& simulation, const Pla
   commands[5] = {"EVENTS", "[since=N]: what the referee has seen and decided", Role::kViewer,
                  [&simulation](const BoardCommand::Call& call) {
                    return eventsSince(simulation, sinceOf(call));
+                 }};
+  commands[6] = {"RETURN", "robot=N: gives a robot that was commanded back to its player",
+                 Role::kOperator, [&simulation](const BoardCommand::Call& call) {
+                   CallArguments arguments("RETURN", call);
+                   const auto robot = arguments.takeInteger("robot", 1, kLastRobot);
+                   arguments.refuseRest();
+                   if (!robot) throw ServeError("no-robot", "robot=N is missing");
+                   simulation.giveBack(static_cast<RobotId>(*robot));
+                   return BoardCommand::Reply{"robot=" + std::to_string(*robot)};
                  }};
   return commands;
 }

@@ -410,7 +410,17 @@ std::string ServedSimulation::side(RobotId robot) const {
   for (const PlayerControl::Seated& seated : run_->players().players())
     if (seated.robot == name)
       return (seated.team.empty() ? "" : " team=" + seated.team) + " player=" + seated.plugin;
-  return found->second->wish.team.empty() ? "" : " team=" + found->second->wish.team;
+  const std::string& team = found->second->wish.team;
+  const std::string plugin = run_->players().takenFrom(find(robot));
+  return (team.empty() ? "" : " team=" + team) + (plugin.empty() ? "" : " taken_from=" + plugin);
+}
+
+void ServedSimulation::giveBack(RobotId robot) {
+  SimRobot& its = find(robot);
+  if (!run_->players().giveBack(its, simulation().random(2 * robot + 1)))
+    throw ServeError("no-player",
+                     "robot " + std::to_string(robot) +
+                         " was not taken from a player; LIST robots tells taken_from=");
 }
 
 void ServedSimulation::reset(std::optional<std::uint64_t> seed) {

@@ -57,6 +57,11 @@ class ORTUNG_API PlayerControl {
   /// Makes a player for a robot that is already there and stays when the player ends. The player
   /// ends as soon as the robot is commanded from elsewhere.
   void lead(SimRobot& robot, const PlayerWish& wish, const Random& random);
+  /// Returns the plugin of the player that a robot had until it was commanded from elsewhere; "":
+  /// there was none, or it has one again.
+  std::string takenFrom(const SimRobot& robot) const;
+  /// Gives such a robot a player of the same settings again. @returns whether there was one
+  bool giveBack(SimRobot& robot, const Random& random);
   /// Seats a player on a robot of its own, which leaves the field when the player ends.
   /// @throws std::invalid_argument for something that it needs and does not get; TableError for its
   ///   tables

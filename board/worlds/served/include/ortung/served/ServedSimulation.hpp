@@ -64,6 +64,9 @@ class ORTUNG_API ServedSimulation : public PlainWorld {
   std::string startPlayer(const PlayerWish& wish);
   /// What a player says of itself; null if it says nothing. @throws PluginError
   std::unique_ptr<PlayerHelp> helpOf(const std::string& player);
+  /// Gives a robot that clients have commanded back to the player that it had before.
+  /// @throws ServeError if there was none, or the robot is not there
+  void giveBack(RobotId robot);
   /// Ends the player on a robot. @throws ServeError if there is none
   void stopPlayer(const std::string& robot);
   /// @throws ServeError if there is no referee; std::invalid_argument for an order that is none
