@@ -100,7 +100,8 @@ Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
 void Viewing::open(const MessageBoard& board) {
   if (!arguments_.isViewing) return;
   const std::string url = fmt::format("http://{}:{}/", hostForBrowsers(address_), board.port());
-  const std::string key = token_.empty() ? "" : "#token=" + token_;
+  std::string key = token_.empty() ? "" : "#token=" + token_;
+  if (!arguments_.pageKeys.empty()) key += (key.empty() ? "#" : "&") + arguments_.pageKeys;
   if (!door_.hasPage())
     warn("this program has no viewer's page (board/web/page was not built): clients only");
   fmt::print("view and control: {}{}\n", url, key);

@@ -20,6 +20,7 @@ struct ServingArguments {
   bool lockstep = false;
   bool isViewing = false;            ///< whether to serve the page for browsers
   bool opensBrowser = true;          ///< whether to show that page, if there is a desktop
+  std::string pageKeys;              ///< keys of the page's address, "demo=1"; "": none
   std::vector<std::string> hosts;    ///< further names of this computer
   std::filesystem::path recordInto;  ///< folder for records that clients begin; "": none
   /// Whether to serve clients at all.

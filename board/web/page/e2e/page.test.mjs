@@ -402,8 +402,14 @@ describe("the page of a robot that is localized", () => {
     const there = await onScreen(page, truth.x + 0.6, truth.y + 0.6);
     await page.mouse.click(there.x, there.y);
     await page.getByRole("heading", { name: /^Why / }).waitFor();
+    await page.getByText(/^(Possible|Improbable|Practically ruled out): .* times less probable/).waitFor();
+    const answer = await page.getByRole("heading", { name: /^Why / }).boundingBox();
+    assert.ok(answer.y > 80 && answer.y < 640, `the answer is in sight, at ${answer.y}`);
     await page.getByRole("button", { name: /180DegreeScan/ }).click();
     await page.getByRole("columnheader", { name: "expected" }).waitFor();
+    const legend = page.getByRole("group", { name: "Legend" });
+    await legend.getByText(/\(log\), \d/).waitFor();
+    await legend.getByText("scan", { exact: true }).waitFor();
     await checkAccess(page, "map");
     assert.deepEqual(page.problems, []);
     client.close();
@@ -608,6 +614,45 @@ describe("the page of a record", () => {
       return Math.hypot(a - x, b - y) < 0.12;
     });
     await checkPanels(page, "record", "Record");
+    assert.deepEqual(page.problems, []);
+    client.close();
+    await page.close();
+    await program.stop();
+    rmSync(folder, { recursive: true });
+  });
+});
+
+describe("the page of the demo", () => {
+  it("shows how the robot finds its place, lends it out, and records", async () => {
+    const folder = mkdtempSync(join(tmpdir(), "ortung-page-"));
+    const program = await startProgram(["demo", "--record-into", folder]);
+    const page = await openPage(browser, program.url);
+    const story = page.locator(".story");
+    await until("several places fit", async () => /^2 places fit what it senses/.test(await story.textContent()), 90);
+    await page.screenshot({ path: join(out, "demo.png") });
+    await until("one is left", async () => /^Found: of \d places one is left/.test(await story.textContent()), 90);
+    await page.getByRole("combobox", { name: "Speed", exact: true }).evaluate((one) => one.value).then((speed) => assert.equal(speed, "1"));
+    // Space pauses, whatever has the focus.
+    await tab(page, "Robots").click();
+    await page.keyboard.press("Space");
+    await page.getByRole("button", { name: "Go on" }).waitFor();
+    await page.getByRole("button", { name: "Go on" }).focus();
+    await page.keyboard.press("Space");
+    await page.getByRole("button", { name: "Pause" }).waitFor();
+    const client = await startClient(program);
+    const listed = async () => (await client.ask("LIST robots"))[1];
+    assert.match(await listed(), / player=wander/);
+    await page.keyboard.press("d");
+    await page.keyboard.down("a");
+    await page.getByText("pioneer was taken from its player wander.").waitFor();
+    assert.match(await listed(), / taken_from=wander/);
+    await page.screenshot({ path: join(out, "taken.png") });
+    await page.keyboard.up("a");
+    await page.keyboard.press("Escape");
+    await page.getByText(/^RETURN robot=1/).first().waitFor();
+    await until("it wanders again", async () => / player=wander/.test(await listed()));
+    await page.getByRole("button", { name: "Record pioneer" }).click();
+    await page.getByText("pioneer-1.rec", { exact: true }).waitFor();
     assert.deepEqual(page.problems, []);
     client.close();
     await page.close();

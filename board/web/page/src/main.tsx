@@ -5,6 +5,7 @@ import { App } from "./app/App";
 import { boardAddress, parseAddress } from "./link/address";
 import type { Line } from "./link/Connection";
 import { RecordedBoard, RecordedTime, type RecordedRun } from "./link/RecordedBoard";
+import { Demo } from "./model/Demo";
 import { Insight } from "./model/Insight";
 import { Session } from "./model/Session";
 import type { World } from "./model/world";
@@ -30,6 +31,8 @@ const insight = new Insight(session, () => {
 });
 const context: Context = { session, ui, insight };
 
+const demo = address.demo ? new Demo(session, insight) : null;
+
 let shown = -1;
 let world: World | null = null;
 const settle = () => {
@@ -52,6 +55,7 @@ const settle = () => {
     shown = board.selected;
     insight.clear();
   }
+  demo?.look();
   if (board.robots.size) ui.showSelection(board.selected);
 };
 ui.onChange(settle);

@@ -2,7 +2,9 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { FieldPainter } from "../field/FieldPainter";
 import { robotColour } from "../field/palette";
 import { Seen } from "../field/View";
+import { FieldLegend } from "../panels/FieldLegend";
 import { Icon } from "../panels/Icon";
+import { Story } from "../panels/Story";
 import { lazyScene3d } from "../scene/lazy";
 import type { Scene3dHandle } from "../scene/Scene3d";
 import { areApart, canBeApart } from "../ui/apart";
@@ -48,6 +50,8 @@ export function FieldView() {
         <div class="fields" hidden={ui.is3d}>{stage(null)}</div>
       )}
       {ui.is3d && <Scene3d />}
+      {!isApart && <Story />}
+      <FieldLegend />
       {problem && <p class="error on-field" role="alert">{problem}</p>}
       <div class="tools left" role="toolbar" aria-label="View">
         <button title="Larger (+)" aria-label="Larger" onClick={() => view()?.zoomBy(1.3)}><Icon name="plus" /></button>

@@ -202,7 +202,7 @@ export class FieldHands {
     const { painter, board } = this;
     const { ui, session } = painter.context;
     const over = (event.target as Element).closest<SVGGElement>(".robot");
-    if ((event.key === "Enter" || event.key === " ") && over) {
+    if (event.key === "Enter" && over) {
       session.select(Number(over.dataset.robot));
       event.preventDefault();
       return;

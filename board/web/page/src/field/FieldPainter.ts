@@ -17,7 +17,9 @@ const kFramesCounted = 30;
 const kSpokenPeriod = 500;
 const kMargin = 0.3;
 const kTools = 44;
-const kScale = 14;
+/** Scale and legend below, buttons and the story above: nothing lies over the corners of the field. */
+const kBelow = 34;
+const kAbove = 40;
 
 /** Draws the field when something on it is new, at most once a frame of the screen. */
 export class FieldPainter implements HandledField {
@@ -104,7 +106,7 @@ export class FieldPainter implements HandledField {
     const { world } = this.context.session.board;
     const { ui } = this.context;
     if (ui.follow) ui.change({ follow: false });
-    if (world) this.view.fit(world.min, world.max, kMargin, kTools, kScale);
+    if (world) this.view.fit(world.min, world.max, kMargin, kTools, kBelow, kAbove);
     this.dirty();
   }
 
@@ -157,7 +159,7 @@ export class FieldPainter implements HandledField {
       view.y = robot.pose.y;
       view.isFree = true;
     } else if (!view.isFree) {
-      view.fit(world.min, world.max, kMargin, kTools, kScale);
+      view.fit(world.min, world.max, kMargin, kTools, kBelow, kAbove);
     }
     this.drawFloor();
     this.free.draw(view, board.drawing.floor);

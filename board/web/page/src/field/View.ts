@@ -54,13 +54,13 @@ export class View {
     return { x: this.x + (x - this.width / 2) / this.scale, y: this.y - (y - this.height / 2) / this.scale };
   }
 
-  /** Shows a rectangle as large as possible, beside what others need: pixels on the left and below. */
-  fit(min: Point, max: Point, margin = 0.3, left = 0, below = 0): void {
+  /** Shows a rectangle as large as possible, beside what others need: pixels on the left, below and above. */
+  fit(min: Point, max: Point, margin = 0.3, left = 0, below = 0, above = 0): void {
     const width = Math.max(0.1, max.x - min.x + 2 * margin);
     const height = Math.max(0.1, max.y - min.y + 2 * margin);
-    this.scale = clamp(Math.min(Math.max(1, this.width - left) / width, Math.max(1, this.height - below) / height));
+    this.scale = clamp(Math.min(Math.max(1, this.width - left) / width, Math.max(1, this.height - below - above) / height));
     this.x = (min.x + max.x) / 2 - left / 2 / this.scale;
-    this.y = (min.y + max.y) / 2 - below / 2 / this.scale;
+    this.y = (min.y + max.y) / 2 + (above - below) / 2 / this.scale;
     this.isFree = false;
   }
 

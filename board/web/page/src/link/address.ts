@@ -4,6 +4,8 @@ export interface Address {
   robot: number | null;
   follow: boolean;
   panel: string | null;
+  /** Shows how a robot finds its place, from the beginning. */
+  demo: boolean;
 }
 
 export function parseAddress(fragment: string): Address {
@@ -14,6 +16,7 @@ export function parseAddress(fragment: string): Address {
     robot: Number.isInteger(robot) && robot > 0 ? robot : null,
     follow: keys.get("follow") === "1",
     panel: keys.get("panel"),
+    demo: keys.get("demo") === "1",
   };
 }
 
@@ -24,6 +27,7 @@ export function toFragment(address: Address): string {
   if (address.robot) keys.set("robot", String(address.robot));
   if (address.follow) keys.set("follow", "1");
   if (address.panel) keys.set("panel", address.panel);
+  if (address.demo) keys.set("demo", "1");
   return keys.size ? `#${keys}` : "";
 }
 

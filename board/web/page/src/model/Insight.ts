@@ -37,6 +37,8 @@ export interface MapWish {
   /** Heading [rad]; null: the best of all. */
   theta: number | null;
   of: "probability" | "expectation";
+  /** Of probabilities. */
+  scale: "linear" | "log";
   index: number;
   /** Features that are left out of the product. */
   without: Set<string>;
@@ -56,7 +58,7 @@ const kSmallCells = 3000;
  * a connection of its own: what was wished last is asked next, and what comes for another robot is dropped.
  */
 export class Insight {
-  readonly wish: MapWish = { theta: null, of: "probability", index: 0, without: new Set(), each: false };
+  readonly wish: MapWish = { theta: null, of: "probability", scale: "log", index: 0, without: new Set(), each: false };
   /** Whether maps are wanted at all, and whether what is expected is. */
   wantsMap = false;
   wantsExpected = false;
@@ -187,7 +189,7 @@ export class Insight {
       return;
     }
     // Readings that are not new make the same map.
-    const what = [this.session.readings, wish.theta, wish.of, wish.index, wish.each, ...wish.without].join(" ");
+    const what = [this.session.readings, wish.theta, wish.of, wish.scale, wish.index, wish.each, ...wish.without].join(" ");
     if (what !== this.mapped) {
       const map = await this.askMap("", this.chosen, kCells);
       if (turn !== this.turn) return;
@@ -225,7 +227,9 @@ export class Insight {
     const { wish } = this;
     const parts = [`HEATMAP robot=${this.session.board.selected}`, ...queries, `cells=${cells}`];
     if (wish.theta !== null) parts.push(`theta_deg=${plain(degrees(wish.theta))}`);
-    if (wish.of === "expectation" && feature === "") parts.push("of=expectation", `index=${wish.index}`);
+    const isExpectation = wish.of === "expectation" && feature === "";
+    if (!isExpectation && wish.scale === "log") parts.push("scale=log");
+    if (isExpectation) parts.push("of=expectation", `index=${wish.index}`);
     return { feature, ...parseMap(await this.session.side.ask(parts.join(" "))) };
   }
 

@@ -29,6 +29,8 @@ export class Robot {
   name = "";
   team = "";
   player = "";
+  /** The player that it had until somebody commanded it. */
+  takenFrom = "";
   client = 0;
   /** The record under way: its file's name, or "failed"; "": none. */
   record = "";

@@ -114,9 +114,20 @@ export class Session {
     if (this.board.link === "open") void this.follow();
   }
 
+  /** Gives a robot that was driven back to the player that it was taken from, if there was one. */
+  async giveBack(number: number): Promise<void> {
+    if (!this.board.can("RETURN") || !this.board.isOperator) return;
+    try {
+      await this.listRobots();
+    } catch (error) {
+      if (!(error instanceof BoardError)) throw error;
+    }
+    if (this.board.robots.get(number)?.takenFrom) await this.act(`RETURN robot=${number}`, "drive");
+  }
+
   private acted(verb: string): void {
     if (verb === "LOCALIZE") this.onLocalize();
-    if (verb === "PLAY" || verb === "STOP" || verb === "RESET" || verb === "RECORD") void this.poll();
+    if (verb === "PLAY" || verb === "STOP" || verb === "RESET" || verb === "RECORD" || verb === "RETURN") void this.poll();
     if (verb === "RESET") this.startOver();
     if (verb === "PAUSE" || verb === "RESUME" || verb === "SPEED" || verb === "REFEREE") void this.poll();
     if (verb === "SEEK") {

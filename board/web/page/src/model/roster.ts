@@ -19,6 +19,7 @@ export function takeRobots(board: Board, lines: string[]): number[] {
     robot.name = keys.get("name") ?? "";
     robot.team = keys.get("team") ?? teamInName(robot.name);
     robot.player = keys.get("player") ?? "";
+    robot.takenFrom = keys.get("taken_from") ?? "";
     robot.record = keys.get("record") ?? "";
     if (robot.record !== "failed") robot.recordProblem = "";
     robot.client = numberOf(keys, "client", 0);

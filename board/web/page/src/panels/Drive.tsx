@@ -2,6 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { usePage } from "../ui/context";
 import { plain } from "../link/words";
 import type { Robot } from "../model/Robot";
+import { Say } from "./parts";
 
 const kPeriod = 100;
 const kDead = 0.12;
@@ -27,7 +28,7 @@ export function DriveControls({ robot }: { robot: Robot }) {
     }, kPeriod);
     return () => {
       clearInterval(timer);
-      sender.want(0, 0);
+      void sender.end();
     };
   }, [isOn, session, ui, robot]);
   return (
@@ -60,6 +61,20 @@ export function DriveControls({ robot }: { robot: Robot }) {
           {pad && `; gamepad: ${pad.slice(0, 40)}`}. <kbd>Esc</kbd> ends it.
         </p>
       )}
+      {isOn && !robot.takenFrom && robot.player && (
+        <p class="hint">
+          Its player {robot.player} drives it now. One that wanders ends when you drive, and gets the robot back when you end; others
+          go on commanding it.
+        </p>
+      )}
+      {robot.takenFrom && (
+        <p class="row taken" role="status">
+          <span>{robot.label} was taken from its player {robot.takenFrom}.</span>
+          {board.can("RETURN") && (
+            <Say line={`RETURN robot=${robot.number}`} at="drive" class="small">Give it back</Say>
+          )}
+        </p>
+      )}
     </div>
   );
 }
@@ -78,6 +93,7 @@ class Sender {
   private said = "";
   private wanted = "";
   private isBusy = false;
+  private saying: Promise<void> = Promise.resolve();
 
   constructor(
     private readonly session: ReturnType<typeof usePage>["session"],
@@ -90,8 +106,20 @@ class Sender {
     void this.say();
   }
 
-  private async say(): Promise<void> {
-    if (this.isBusy) return;
+  /** Stops the robot, and gives it back to whoever it was taken from. */
+  async end(): Promise<void> {
+    if (this.said === "") return;
+    this.want(0, 0);
+    await this.saying;
+    await this.session.giveBack(this.robot.number);
+  }
+
+  private say(): Promise<void> {
+    if (!this.isBusy) this.saying = this.sayAll();
+    return this.saying;
+  }
+
+  private async sayAll(): Promise<void> {
     this.isBusy = true;
     while (this.said !== this.wanted) {
       this.said = this.wanted;

@@ -10,7 +10,8 @@ import { kEstimate } from "../model/features";
 import type { Robot } from "../model/Robot";
 import { Curves } from "./Curves";
 import { Icon } from "./Icon";
-import { ErrorNote, Say, Section, seconds, shortName } from "./parts";
+import { ageOf, ErrorNote, probability, Say, Section, seconds, shortName } from "./parts";
+import { inWords } from "../model/why";
 import { plain } from "../link/words";
 
 export function LocalizationPanel() {
@@ -78,13 +79,6 @@ function FilterSection({ robot }: { robot: Robot }) {
       <ErrorNote at="localization" />
     </Section>
   );
-}
-
-/** How old a map is. */
-function ageOf(stamp: number, board: Board): string {
-  const age = (board.now - stamp) / 1e6;
-  const long = `${Math.abs(age).toFixed(Math.abs(age) < 10 ? 1 : 0)} s`;
-  return age < -0.05 ? `${long} ahead, of ${seconds(stamp)}` : `${long} old`;
 }
 
 /** Why there is no estimate, and what to do. */
@@ -259,6 +253,18 @@ function MapSection() {
                 <option value="expectation">expectation</option>
               </select>
             </label>
+            {wish.of === "probability" && (
+              <label>
+                <span class="key">scale</span>
+                <select
+                  value={wish.scale}
+                  onChange={(event) => { wish.scale = event.currentTarget.value as typeof wish.scale; redraw(); }}
+                >
+                  <option value="log">logarithmic</option>
+                  <option value="linear">linear</option>
+                </select>
+              </label>
+            )}
             {wish.of === "expectation" && (
               <label>
                 <span class="key">value</span>
@@ -381,19 +387,25 @@ function SmallMap({ map }: { map: FeatureMap }) {
 
 function WhyList({ why }: { why: Why }) {
   const [open, setOpen] = useState("");
+  const { insight } = usePage();
   const { x, y, theta } = why.pose;
+  const head = useRef<HTMLHeadingElement>(null);
+  // Whoever has asked on the field sees the answer.
+  useEffect(() => head.current?.scrollIntoView({ block: "start" }), [why]);
+  const best = insight.wish.of === "probability" ? (insight.map?.high ?? null) : null;
   return (
     <>
-      <h3>
+      <h3 ref={head}>
         Why {x.toFixed(2)}, {y.toFixed(2)}, {degrees(theta).toFixed(0)}°: p = {probability(why.p)}
       </h3>
+      <p class="in-words">{inWords(why.p, best)}</p>
       <ul class="why">
         {why.features.map(({ feature, p, values }) => (
           <li key={feature}>
             <button aria-expanded={open === feature} onClick={() => setOpen(open === feature ? "" : feature)}>
               <span class="who">{shortName(feature)}</span>
-              <meter min={0} max={1} value={p} aria-label={`probability of ${feature}`} />
-              <span class="share">{probability(p)}</span>
+              <meter min={0} max={1} value={Math.max(0, p)} aria-label={`probability of ${feature}`} />
+              <span class="share" title={p < 0 ? "no reading, or nothing is expected here" : ""}>{p < 0 ? "–" : probability(p)}</span>
             </button>
             {open === feature && (
               <table class="values">
@@ -421,8 +433,6 @@ function WhyList({ why }: { why: Why }) {
     </>
   );
 }
-
-const probability = (p: number): string => (p !== 0 && Math.abs(p) < 0.001 ? p.toExponential(1) : p.toPrecision(2));
 
 function amount(value: number | null, unit: string): string {
   if (value === null || Number.isNaN(value)) return "–";

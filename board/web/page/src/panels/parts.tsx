@@ -1,4 +1,5 @@
 import type { ComponentChildren } from "preact";
+import type { Board } from "../model/Board";
 import { usePage } from "../ui/context";
 
 /** The newest error of what was asked at a place of the page. */
@@ -75,3 +76,12 @@ function timeOfDay(date: Date): string {
 }
 
 export const shortName = (feature: string): string => feature.split("/").slice(1).join("/");
+
+/** How old a map is. */
+export function ageOf(stamp: number, board: Board): string {
+  const age = (board.now - stamp) / 1e6;
+  const long = `${Math.abs(age).toFixed(Math.abs(age) < 10 ? 1 : 0)} s`;
+  return age < -0.05 ? `${long} ahead, of ${seconds(stamp)}` : `${long} old`;
+}
+
+export const probability = (p: number): string => (p !== 0 && Math.abs(p) < 0.001 ? p.toExponential(1) : p.toPrecision(2));

@@ -41,6 +41,7 @@ export class World3d {
   private readonly objects = new Map<string, Mesh>();
   private readonly rays: LineSegments;
   private readonly arrows: InstancedMesh;
+  private floor: Mesh | null = null;
   private scene = -1;
 
   constructor(
@@ -130,6 +131,7 @@ export class World3d {
     this.robots.clear();
     this.objects.clear();
     this.buildGround();
+    this.still.traverse((one) => shade(one, one !== this.floor));
     for (const robot of board.robots.values()) this.buildRobot(robot);
     for (const { name, radius, height, colour, kind } of board.world?.objects ?? []) {
       const isBall = kind === "ball";
@@ -139,6 +141,7 @@ export class World3d {
       this.objects.set(name, mesh);
       this.moving.add(mesh);
     }
+    this.moving.traverse((one) => shade(one, true));
   }
 
   private buildGround(): void {
@@ -148,6 +151,7 @@ export class World3d {
     const height = world.max.y - world.min.y;
     const floor = new Mesh(new PlaneGeometry(width, height), new MeshLambertMaterial({ color: isPitch(drawing) ? 0x2c6e4d : 0xc3cad2 }));
     floor.position.set((world.min.x + world.max.x) / 2, (world.min.y + world.max.y) / 2, 0);
+    this.floor = floor;
     this.still.add(floor);
     for (const line of drawing.lines) this.still.add(lineOf(line));
     for (const arc of drawing.arcs) this.still.add(arcOf(arc));
@@ -211,6 +215,13 @@ export class World3d {
     this.robots.set(robot.number, { group, parts });
     this.moving.add(group);
   }
+}
+
+/** What is lit casts shadows and has those of others, unless one looks through it; paint and signs do neither. */
+function shade(object: Object3D, casts: boolean): void {
+  if (!(object instanceof Mesh) || !(object.material instanceof MeshLambertMaterial)) return;
+  object.receiveShadow = true;
+  object.castShadow = casts && !object.material.transparent;
 }
 
 /** Cylinders of three stand along y. */

@@ -4,7 +4,7 @@ import { kPanels } from "./Ui";
 
 /** Keys of the whole page: what they do, for the help and for `installKeys`. */
 export const kKeys: { keys: string; about: string }[] = [
-  { keys: "space", about: "pause, go on" },
+  { keys: "space", about: "pause, go on (Enter presses a button)" },
   { keys: ".", about: "one cycle, while it is paused" },
   { keys: "n, p", about: "next robot, previous robot" },
   { keys: "1 to 4", about: "panels" },
@@ -50,7 +50,8 @@ export function installKeys({ session, ui }: Context): void {
   kPanels.forEach((panel, i) => (actions[String(i + 1)] = () => ui.change({ panel })));
   window.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
-    const isPressing = event.key === " " && target.closest("button, summary, input, .robot, a");
+    // Enter presses what space does not; a box is checked by space alone.
+    const isPressing = event.key === " " && target.closest('input[type="checkbox"]');
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isPressing) return;
     if (isTypedInto(target) && event.key !== "Escape") return;
     const action = actions[event.key];

@@ -13,6 +13,7 @@ export interface Layers {
   bound: boolean;
   estimate: boolean;
   ghost: boolean;
+  legend: boolean;
 }
 
 export const kLayers: Record<keyof Layers, { label: string; about: string; on: boolean }> = {
@@ -29,6 +30,7 @@ export const kLayers: Record<keyof Layers, { label: string; about: string; on: b
   bound: { label: "bound", about: "a ring about the estimate that the error leaves once in a thousand while tracking", on: true },
   estimate: { label: "estimate", about: "the filter's estimate of the robot's pose", on: true },
   ghost: { label: "odometry", about: "the pose by odometry alone", on: false },
+  legend: { label: "legend", about: "what the colours mean", on: true },
 };
 
 export const kLayerNames = Object.keys(kLayers) as (keyof Layers)[];
