@@ -18,7 +18,7 @@ import pathlib
 import re
 import shlex
 
-PAGES = ("README.md", "STABILITY.md", "CONTRIBUTING.md", "examples/README.md", "realsensors/README.md", "docs/*.md",
+PAGES = ("README.md", "STABILITY.md", "CONTRIBUTING.md", "examples/README.md", "realsensors/README.md", "docs/**/*.md",
          "plugins/*/*/README.md")
 COMMANDS = {"sh", "console", "python"}      # languages of which each block is run
 FILES = {"cpp", "toml"}                     # those that can be compiled or checked where they are whole

@@ -1,0 +1,13 @@
+# The documentation's site: `cmake --build BUILD --target docs-site` makes BUILD/docs-site/html. What it needs of Debian is in
+# scripts/install-deps.sh (all). With ORTUNG_DOCS it is made with everything else, and packages have it. What it is made of is for
+# docs/site/build.py to know, which does nothing if none of it has changed.
+function(ortung_docs_site)
+  if(ORTUNG_DOCS)
+    set(all ALL)
+  endif()
+  add_custom_target(docs-site ${all}
+    COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/docs/site/build.py ${PROJECT_BINARY_DIR}/docs-site
+            --program $<TARGET_FILE:ortung> --version ${PROJECT_VERSION}
+    VERBATIM)
+  add_dependencies(docs-site ortung ortung_commands)
+endfunction()
