@@ -133,7 +133,7 @@ endmacro()
 function(ortung_install_documents)
   set(documents DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung COMPONENT ortung-doc EXCLUDE_FROM_ALL)
   install(FILES README.md ${documents})
-  install(DIRECTORY docs ${documents})
+  install(DIRECTORY docs ${documents} PATTERN site EXCLUDE)
   install(FILES realsensors/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung/realsensors
           COMPONENT ortung-doc EXCLUDE_FROM_ALL)
   install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung-doc

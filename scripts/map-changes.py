@@ -2,7 +2,7 @@
 """Measures how soon walls that moved are noticed, and how often what did not change is called changed. Prints tables in Markdown.
 
   scripts/map-changes.py build/release/bin/ortung [../shared/data] [--walls 5] [--seeds 5] [--only alarms,walls,sim] [--logs intel,aces]
-                         [--out DIR] [--write docs/mcl.md]
+                         [--out DIR] [--write docs/method/self-calibration.md]
 
 alarms  logs of laser scanners with maps made of them: groups of cells that are sure to have changed (some of them are people in the map)
 walls   the same logs with maps in which 1.5 m of a straight wall stand half a metre farther into the room, --walls of each log, chosen

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts errors beyond the protection level, drive by drive and cause by cause. Prints a table in Markdown.
 
-  scripts/protection.py build/release/bin/ortung [../shared/data] [--drives 60] [--only sim,logs] [--logs intel,aces] [--out DIR] [--write docs/mcl.md]
+  scripts/protection.py build/release/bin/ortung [../shared/data] [--drives 60] [--only sim,logs] [--logs intel,aces] [--out DIR] [--write docs/method/trust.md]
 
 sim   simulated drives of a minute: four robots, in a hall and on a field, without faults and with each fault of a kind that they can
       meet, --drives of each; the simulator's seed, the fault's and the filter's differ

@@ -75,13 +75,13 @@ def missing(ortung, root):
         for name in re.findall(r"^(?:class|def) ([A-Za-z]\w*)", stub.read_text(), re.M):
             if not re.search(rf"\b{name}\b", python):
                 yield f"'{name}' of {stub.relative_to(root)} is in neither docs/python.md nor docs/learning.md"
-    figures = pages.codes(["docs/mcl.md"])
+    figures = pages.codes(["docs/evaluation.md"])
     sources = ("app/report/RunResult.cpp", "app/report/ManyRuns.cpp", "mcl/study/src/Figures.cpp")
     report = "".join((root / name).read_text() for name in sources)
     for name in sorted(set(re.findall(r'\{"([a-z_0-9]+)", |json\["([a-z_0-9]+)"\]|count\("([a-z_0-9]+)"', report))):
         name = "".join(name)
         if not re.search(rf"\b{name}\b", figures):
-            yield f"the figure '{name}' of an evaluation is not in docs/mcl.md"
+            yield f"the figure '{name}' of an evaluation is not in docs/evaluation.md"
 
 
 if __name__ == "__main__":

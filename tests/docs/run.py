@@ -181,7 +181,7 @@ def serves(command):
     """Whether a command runs until somebody ends it."""
     if command.rstrip().endswith("&"):
         return True
-    return bool(re.match(r"ortung (demo|view)\b|ortung .*--(view|listen)\b", command, re.DOTALL)) and "--duration" not in command
+    return bool(re.match(r"ortung (demo|view)\b|ortung .*--(view|listen)\b", command, re.DOTALL)) and not re.search(r"--(duration|once)\b", command)
 
 
 def last(text, lines=30):

@@ -25,3 +25,6 @@ for name in run run1 run2 run3 other; do
   seed=$((seed + 1))
   "$ortung" import sim world.toml --with-robot robot.toml --option duration=25 --option seed=$seed --out $name.rec
 done
+# A bag of ROS 2 of a robot with a scanner in a hall.
+"$ortung" import sim maps/fields/f2000_hall.toml --with-robot maps/robots/pioneer_lrf.toml --option duration=40 --out hall_drive.rec
+"$ortung" export mcap record:hall_drive.rec --robot maps/robots/pioneer_lrf.toml --world maps/fields/f2000_hall.toml --out hall.mcap
