@@ -34,13 +34,15 @@ def contents(root):
     return told["first"], parts
 
 
-def outside_code(text, change):
-    """The text with change() made to all that is neither in fences nor in `code`."""
+def with_links(text, change):
+    """The text with change(link) in place of each link that is neither in fences nor in `code`; its words may be `code`."""
+    def links(part):
+        return re.sub(f"{LINK.pattern}|{CODE.pattern}", lambda found: change(found) if found[3] else found[0], part)
     parts, at = [], 0
-    for code in re.finditer(f"(?ms){FENCE.pattern}|{CODE.pattern}", text):
-        parts += [change(text[at:code.start()]), code[0]]
-        at = code.end()
-    return "".join([*parts, change(text[at:])])
+    for fence in FENCE.finditer(text):
+        parts += [links(text[at:fence.start()]), fence[0]]
+        at = fence.end()
+    return "".join([*parts, links(text[at:])])
 
 
 class Tree:
@@ -70,7 +72,7 @@ class Tree:
             if name.endswith(".md") and name[:-3] in self.pages:
                 heading = "#" + target.partition("#")[2] if "#" in target else ""
                 return f"[{text}]({os.path.relpath(name, os.path.dirname(page))}{heading})"
-        return text if text.startswith("`") else f"{text} (`{place}`)" if text != place else f"`{text}`"
+        return text if text.startswith("`") else f"{text} (`{place}`)"
 
     def copy(self, place):
         source = self.root / place
@@ -81,7 +83,7 @@ class Tree:
 
     def page(self, page, addition=""):
         text = MARK.sub("", (self.root / (page + ".md")).read_text(encoding="utf-8"))
-        text = outside_code(text, lambda part: LINK.sub(lambda match: self.link(page, match), part))
+        text = with_links(text, lambda match: self.link(page, match))
         place = self.out / (page + ".md")
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(text + addition, encoding="utf-8")
