@@ -29,7 +29,7 @@ export function FieldView() {
     <Stage only={only} seen={seen.current} painters={painters.current} onProblem={setProblem} />
   );
   return (
-    <div class="field">
+    <div class={isApart ? "field apart" : "field"}>
       {isApart ? (
         <div class={`fields many-${robots.length}`} hidden={ui.is3d}>
           {robots.map((robot) => (
