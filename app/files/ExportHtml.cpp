@@ -52,7 +52,7 @@ void thin(Message& message) {
 /// All readings of a record as lines, from time 0 on.
 struct Readings {
   std::string lines;
-  std::size_t leftOut = 0;  ///< that are too large
+  std::size_t leftOut = 0;  ///< moments that are too large
 
   explicit Readings(const std::filesystem::path& record) {
     RecordSource source(record);

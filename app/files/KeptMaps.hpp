@@ -14,10 +14,10 @@ namespace ortung::app {
 struct KeptMaps {
   /// One moment, as the page reads it.
   struct Moment {
-    Timestamp stamp = 0;  ///< on the time line [us]
+    Timestamp stamp = 0;  ///< time on the time line [us]
     std::string json;     ///< text, see board/web/page/src/link/KeptMaps.ts
   };
-  std::vector<Moment> moments;  ///< in the order of time
+  std::vector<Moment> moments;  ///< kept moments in the order of time
   std::size_t leftOut = 0;      ///< moments for which there was no room
 };
 

@@ -12,7 +12,7 @@ namespace ortung::app {
 namespace {
 
 constexpr std::size_t kWidth = 100;  ///< most characters of a line
-constexpr std::size_t kColumn = 28;  ///< where descriptions begin
+constexpr std::size_t kColumn = 28;  ///< column where descriptions begin
 
 /// Returns the words of a text in lines that begin at a column, the first one behind @p head.
 std::string wrapped(const std::string& head, std::size_t column, const std::string& text) {

@@ -268,7 +268,9 @@ TEST(Record, NamesFileLineAndWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string expected = ", expected '# ortung record 1' or a compressed record";
   EXPECT_EQ(complaint(folder, ""), ":1: found ''" + expected);
-  EXPECT_EQ(complaint(folder, "PARAM x\n"), ":1: found 'PARAM x'" + expected);
+  EXPECT_EQ(
+      complaint(folder, "PARAM x\n"),
+      ":1: found 'PARAM x'" + expected + "; it is a log of CARMEN (as a source: carmen:FILE)");
   EXPECT_EQ(complaint(folder, "# ortung record 2\n"), ":1: found '# ortung record 2'" + expected);
   EXPECT_EQ(complaint(folder, kMagic + "# world x\n1 a/b/c 1 NaN\n"),
             ":3: found 'NaN', expected an unsigned 32-bit word");

@@ -13,10 +13,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kFarthest = 1e6;     ///< of places [m]
-constexpr double kFastest = 1e3;      ///< of velocities [m/s, rad/s]
-constexpr double kLeastSigma = 0.01;  ///< of a place [m]: a covariance of zeros says nothing
-constexpr double kMostSigma = 100.0;  ///< of a place [m]
+constexpr double kFarthest = 1e6;  ///< greatest coordinate [m]
+constexpr double kFastest = 1e3;   ///< greatest velocity [m/s, rad/s]
+constexpr double kLeastSigma =
+    0.01;  ///< least sigma of a place [m]: a covariance of zeros says nothing
+constexpr double kMostSigma = 100.0;  ///< greatest sigma of a place [m]
 
 /// Returns the names of a message's type: ROS 1 leaves "msg" out, and so do some JSON clients.
 bool isType(const std::string& name, std::string_view type) {

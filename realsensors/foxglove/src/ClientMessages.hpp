@@ -10,7 +10,7 @@ namespace ortung::foxglove {
 struct ClientChannel {
   std::string topic;
   std::string encoding;  ///< "json" or "cdr"
-  std::string type;      ///< as "geometry_msgs/msg/Twist"
+  std::string type;      ///< type of its messages: "geometry_msgs/msg/Twist"
 };
 
 /// What a client can tell a robot.

@@ -36,10 +36,10 @@ struct Perceiver {
 
 struct PerceivedPlayback::Parts {
   Config config;
-  std::vector<SensorId> features;  ///< of the robot file
+  std::vector<SensorId> features;  ///< features of the robot file
   std::size_t robots = 0;
 
-  std::mutex mutex;  ///< of moments
+  std::mutex mutex;  ///< guards moments
   std::vector<Moment> moments;
   std::uint64_t taken = 0;
 
