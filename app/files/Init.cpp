@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <system_error>
 
 #include "Console.hpp"
@@ -71,11 +72,19 @@ std::string inlineTable(const KeySurvey& survey) {
   return "{ " + text + " }";
 }
 
-std::string sensorText(PluginFactory& factory, const std::string& name) {
+/// @param number how many sensors of that plugin there are with this one: further ones are other
+///   models, since features have names of their own
+std::string sensorText(PluginFactory& factory, const std::string& name, int number) {
   const KeySurvey survey = surveyPlugin(factory, PluginKind::kSensor, name);
   std::string text = fmt::format("\n[[sensor]]\nplugin = {}\n", quoted(name));
   for (const auto& [key, entry] : survey.keys) {
     if (key == "plugin") continue;
+    if (key == "model" && number > 1) {
+      std::string model = entry.question ? exampleOf(*entry.question) : quoted(name);
+      if (model.size() > 1) model.insert(model.size() - 1, std::to_string(number));
+      text += fmt::format("{:<33} # of that name there is one already\n", "model = " + model);
+      continue;
+    }
     const auto below = survey.tables.find(key);
     const bool isTable =
         below != survey.tables.end() && entry.question->kind == Question::Kind::kTable;
@@ -95,8 +104,10 @@ int runInitRobot(const InitRobotArguments& arguments) {
     text += templates::kOdometry;
   if (sensors.empty()) text += templates::kScanner;
   PluginFactory factory(PluginFactory::standardFolders());
-  for (const std::string& sensor : sensors) text += sensorText(factory, sensor);
+  std::map<std::string, int> counts;
+  for (const std::string& sensor : sensors) text += sensorText(factory, sensor, ++counts[sensor]);
   write(arguments.out, text, arguments.force);
+  note("next: `ortung check " + arguments.out.string() + "`, `ortung init world`, `ortung learn`");
   return 0;
 }
 

@@ -89,4 +89,5 @@ def learn(
     area: str = "auto",
     threads: int = 1,
     progress: Optional[Callable[[float], object]] = None,
+    force: bool = False,
 ) -> Dict[str, Any]: ...

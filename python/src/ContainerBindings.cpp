@@ -22,7 +22,8 @@ SensorData& need(SensorContainer& container, const std::string& query) {
   if (found != nullptr) return *found;
   std::string known;
   for (const auto& one : container.all()) known += (known.empty() ? "" : ", ") + toText(one->id());
-  throw py::key_error("there is no feature " + query + ", but " + known);
+  throw py::key_error("there is no feature " + query + "; there " +
+                      (known.empty() ? "is none" : "are " + known));
 }
 
 SensorData& find(const Container& self, const std::string& query) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "OwnFiles.hpp"
 #include "Progress.hpp"
 #include "Worlds.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -37,7 +38,9 @@ py::dict summaryOf(TableLearner& tables, std::uintmax_t bytes) {
 
 py::dict learnTables(const py::object& world, const std::filesystem::path& robot,
                      const std::filesystem::path& out, double cell, double headingStep,
-                     const std::string& area, unsigned threads, const py::object& progress) {
+                     const std::string& area, unsigned threads, const py::object& progress,
+                     bool force) {
+  refuseOther(out, FileKind::kTables, force);
   const SharedWorld shared = worldOf(world);
   std::string part = area;  // "x,y" of the command line
   std::replace(part.begin(), part.end(), ',', ';');
@@ -63,9 +66,10 @@ void bindLearner(py::module_& module) {
   module.def(
       "learn", &learnTables, py::arg("world"), py::arg("robot"), py::arg("out"),
       py::arg("cell") = 0.1, py::arg("heading_step_deg") = 2.0, py::arg("area") = "auto",
-      py::arg("threads") = 1, py::arg("progress") = py::none(),
+      py::arg("threads") = 1, py::arg("progress") = py::none(), py::arg("force") = false,
       "Learns what a robot's sensors read everywhere in a world, as `ortung learn` does, and "
-      "writes the tables to `out`. world: a World, or the file of one; robot: its file; cell: edge "
+      "writes the tables to `out`, which may be there if it has tables (force: whatever it has). "
+      "world: a World, or the file of one; robot: its file; cell: edge "
       "of a cell [m]; heading_step_deg: divides a turn; area: the part of the floor, 'auto', 'all' "
       "or 'x,y' [m]. The tables do not depend on the number of threads. progress(share) is called "
       "now and then with what is done, in [0, 1]; what it raises ends the work, and nothing is "

@@ -23,6 +23,8 @@ class PythonSensor {
  public:
   PythonSensor(std::string feature, const py::object& sensor, std::size_t count)
       : feature_(std::move(feature)), sensor_(sensor), count_(count) {
+    if (PyType_Check(sensor.ptr()) != 0)
+      throw py::type_error(feature_ + ": the sensor is a class, expected an object of it");
     learns_ = py::hasattr(sensor, "learn");
     readModel();
     if (py::hasattr(sensor, "probability")) return;

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "Bindings.hpp"
+#include "OwnFiles.hpp"
 #include "Robots.hpp"
 #include "Values.hpp"
+#include "ortung/base/Nearest.hpp"
 #include "ortung/records/RecordWriter.hpp"
 
 namespace ortung::python {
@@ -50,9 +52,22 @@ void write(SharedWriter& self, Timestamp stamp, const std::string& feature,
   ++self.messages;
 }
 
+/// A feature that the container of a record does not have is most likely misspelt.
+void needFeature(const SharedWriter& self, const std::string& feature) {
+  if (!self.container) return;
+  const Gate::Together visit(*self.container->gate);
+  const SensorContainer& container = *self.container->container;
+  if (container.findExactly(parseSensorId(feature)) != nullptr) return;
+  std::vector<std::string> names;
+  for (const auto& one : container.all()) names.push_back(toText(one->id()));
+  throw py::key_error("there is no feature " + feature + " in the record's container" +
+                      didYouMean(feature, names));
+}
+
 void writeWords(SharedWriter& self, Timestamp stamp, const std::string& feature,
                 const py::object& words) {
   needOpen(self);
+  needFeature(self, feature);
   write(self, stamp, feature, wordsOf(words, feature));
 }
 
@@ -79,7 +94,9 @@ void close(SharedWriter& self) {
 }
 
 std::unique_ptr<SharedWriter> open(const std::filesystem::path& file,
-                                   std::optional<Container> container, const std::string& world) {
+                                   std::optional<Container> container, const std::string& world,
+                                   bool force) {
+  refuseOther(file, FileKind::kRecord, force);
   auto self = std::make_unique<SharedWriter>();
   self->file = file.string();
   RecordNotes notes{world};
@@ -101,9 +118,11 @@ void bindRecords(py::module_& module) {
       "Writes a record, which appears whole when it is closed: `with RecordWriter(...) as record`. "
       "It is lines of text if its name ends in '.txt', else compressed.")
       .def(py::init(&open), py::arg("file"), py::arg("container") = py::none(),
-           py::arg("world") = "",
+           py::arg("world") = "", py::arg("force") = false,
            "container: of the robot whose readings these are, for their formats and for "
-           "write_values(); world: fingerprint of the world where they are made, or ''.")
+           "write_values(); features that it does not have are refused. world: fingerprint of the "
+           "world "
+           "where they are made, or ''. A file that is no record is replaced with force only.")
       .def(
           "write", &writeWords, py::arg("stamp"), py::arg("feature"), py::arg("words"),
           "Writes a reading by its words, as readings() gives them. Stamps [us] must not decrease.")

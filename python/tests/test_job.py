@@ -122,6 +122,37 @@ class Job(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "nothing to localize with"):
             ortung.evaluate(f"record:{lone}", ROBOT, self.tables)
 
+    def test_nothing_of_another_kind_is_overwritten(self):
+        notes = self.path("notes.txt")
+        pathlib.Path(notes).write_text("mine\n")
+        with self.assertRaisesRegex(FileExistsError, "force=True"):
+            ortung.RecordWriter(notes)
+        with self.assertRaisesRegex(FileExistsError, "it is a robot file"):
+            ortung.learn(ARENA, ROBOT, ROBOT)
+        with self.assertRaisesRegex(FileExistsError, "it is a record"):
+            ortung.learn(ARENA, ROBOT, self.record)
+        self.assertEqual(pathlib.Path(notes).read_text(), "mine\n")
+        with ortung.RecordWriter(notes, force=True):
+            pass
+        with ortung.RecordWriter(notes):  # a record is replaced by a record
+            pass
+        self.assertTrue(pathlib.Path(notes).read_text().startswith("# ortung record"))
+
+    def test_what_is_misspelt_is_told(self):
+        class Sensor:
+            sigma = 1.0
+
+            def expected(self, poses):
+                return poses[:, :1]
+
+        container = ortung.SensorContainer()
+        with self.assertRaisesRegex(TypeError, "is a class, expected an object"):
+            container.add_sensor("a/b/c", Sensor)
+        container.add_sensor("a/b/c", Sensor())
+        with ortung.RecordWriter(self.path("misspelt.rec"), container) as record:
+            with self.assertRaisesRegex(KeyError, "did you mean 'a/b/c'"):
+                record.write(1, "a/b/d", [1])
+
     def test_records_are_what_was_written(self):
         copy = self.path("copy.txt")
         readings = list(ortung.readings(self.source))

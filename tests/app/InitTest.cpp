@@ -55,6 +55,18 @@ TEST_F(Init, EverySensorsKeysCanBeUncommented) {
                 "ortung init robot: there is no plugin 'lfr'", {"did you mean 'lrf'?"});
 }
 
+TEST_F(Init, SeveralSensorsOfAKindHaveNamesOfTheirOwn) {
+  ASSERT_EQ(ortung({"init", "robot", "--sensor", "sonar", "--sensor", "sonar", "--sensor", "lrf",
+                    "--sensor", "sonar", "--out", path("s.toml")})
+                .exitCode,
+            0);
+  const Outcome check = ortung({"check", path("s.toml")});
+  EXPECT_EQ(check.exitCode, 0) << check.err;
+  for (const char* name : {"sonar/ultrasonic/sonar0", "sonar2/ultrasonic/sonar0",
+                           "sonar3/ultrasonic/sonar0", "LMS200/LRF"})
+    EXPECT_NE(check.out.find(name), std::string::npos) << check.out;
+}
+
 TEST_F(Init, OverwritesNothingUnasked) {
   write("r.toml", "mine");
   expectRefused(ortung({"init", "robot", "--out", path("r.toml")}), 1,

@@ -18,9 +18,15 @@ TEST(Nearest, FindsWhatWasMeant) {
 
 TEST(Nearest, DoesNotGuessWildly) {
   EXPECT_EQ(nearest("--frobnicate", kOptions), "");
+  EXPECT_EQ(nearest("--report", std::vector<std::string>{"--record"}), "");
   EXPECT_EQ(nearest("", kOptions), "");
   EXPECT_EQ(nearest("x", {}), "");
   EXPECT_EQ(nearest(std::string(100000, 'a'), kOptions), "");
+}
+
+TEST(Nearest, KnowsKeysWithoutTheirUnits) {
+  EXPECT_EQ(nearest("theta", std::vector<std::string>{"model", "theta_deg", "x_m"}), "theta_deg");
+  EXPECT_EQ(nearest("x", std::vector<std::string>{"theta_deg", "x_m"}), "x_m");
 }
 
 TEST(Nearest, CountsASwapAsOneLetter) {

@@ -64,7 +64,8 @@ TEST(SensorContainer, RefusesASecondFeatureOfOneName) {
   SensorContainer container;
   addPose(container, {"A", "b", "c"});
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { addPose(container, {"A", "b", "c"}); }),
-            "feature already in the container: A/b/c");
+            "feature already in the container: A/b/c; give one of the two another model, type or "
+            "feature");
   EXPECT_EQ(container.all().size(), 1u);
 }
 

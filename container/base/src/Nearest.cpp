@@ -27,6 +27,14 @@ std::size_t distanceOf(std::string_view a, std::string_view b) {
   return now.back();
 }
 
+/// Whether so many letters can be a slip: a third of the longer word's, dashes of options apart; of
+/// several ones fewer, since "report" is not meant by "record".
+bool isNear(std::string_view word, std::string_view candidate, std::size_t distance) {
+  const std::size_t dashes = word.starts_with("--") && candidate.starts_with("--") ? 2 : 0;
+  const std::size_t letters = std::max(word.size(), candidate.size()) - dashes;
+  return distance <= 1 ? 3 * distance <= letters : 3 * distance < letters;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> words) {
@@ -35,8 +43,9 @@ std::string nearest(std::string_view word, std::span<const std::string> words) {
   if (word.size() > kLongest) return best;
   for (const std::string& candidate : words) {
     if (candidate.size() > kLongest) continue;
-    const std::size_t distance = distanceOf(word, candidate);
-    if (3 * distance > std::max(word.size(), candidate.size()) || distance >= least) continue;
+    const bool lacksUnit = !word.empty() && candidate.starts_with(std::string(word) + "_");
+    const std::size_t distance = lacksUnit ? 1 : distanceOf(word, candidate);
+    if (!isNear(word, candidate, distance) || distance >= least) continue;
     best = candidate;
     least = distance;
   }

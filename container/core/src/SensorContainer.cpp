@@ -37,7 +37,8 @@ SensorContainer::~SensorContainer() = default;
 
 SensorData& SensorContainer::add(std::unique_ptr<SensorData> data) {
   if (findExactly(data->id()) != nullptr) {
-    throw std::invalid_argument("feature already in the container: " + toText(data->id()));
+    throw std::invalid_argument("feature already in the container: " + toText(data->id()) +
+                                "; give one of the two another model, type or feature");
   }
   return *data_.emplace_back(std::move(data));
 }

@@ -128,8 +128,10 @@ TableFile::TableFile(const std::filesystem::path& file) : impl_(std::make_unique
   impl_->map();
   std::vector<zip::Entry> entries;
   if (const std::string why = zip::read(impl_->bytes, entries); !why.empty()) {
-    throw TableError(file.string() + ": is torn or no table file: " + why +
-                     whatItIs(file, {FileKind::kTables}));
+    if (const std::string other = whatItIs(file, {FileKind::kTables, FileKind::kZip});
+        !other.empty())
+      throw TableError(file.string() + ": is no table file" + other);
+    throw TableError(file.string() + ": is torn or no table file: " + why);
   }
   for (const zip::Entry& entry : entries) {
     if (!entry.name.ends_with(".npy")) {
