@@ -1,4 +1,4 @@
-"""What each sensor, learned models and more samples are worth: the ablations of docs/results.md, a part of evaluate.py.
+"""What each sensor, learned models and more samples are worth: the ablations of docs/results/simulated.md, a part of evaluate.py.
 
 The same recorded drives for all rows of a table; models are learned from other drives, or another part of the log.
 """

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Runs the evaluation of docs/results.md and prints its tables as Markdown.
+"""Runs the evaluation of docs/results and prints its tables as Markdown.
 
-  scripts/evaluate.py build/release/bin/ortung ../shared/data [--only sim,laser,...] [--seeds 3] [--out DIR] [--write docs/results.md]
+  scripts/evaluate.py build/release/bin/ortung ../shared/data [--only sim,laser,...] [--seeds 3] [--out DIR] [--write docs/results]
 
 For each log it imports, learns (once a map) and evaluates from an unknown and a known start. --write puts each table behind its mark
-in the page, <!-- table: HEADING -->, part by part, so that what fails later leaves what was there. All parts take some hours.
+in the pages, <!-- table: HEADING -->, part by part, so that what fails later leaves what was there. All parts take some hours. Then
+scripts/results_page.py makes docs/results.md of them.
 
 Evaluations are sweeps in OUT/sweeps: run again, the script goes on where it was. They may be run elsewhere before: `ortung sweep run
 OUT/sweeps/NAME.toml --dir OUT/sweeps/NAME --shard I/N` (docs/clusters.md).
 """
 import argparse
-import json
 import math
 import os
 import shutil
@@ -364,47 +364,18 @@ def trust(tools, _):
     print(run([*common, "--only", "faults", "--cases", "2", "--logs", "intel,belgioioso,jarvis,fhw,sena_telecom"]), end="", flush=True)
 
 
-def ours_beside(tools, names):
-    """Our figures with 10,000 samples by log: tracking from the truth, and how often an unknown start converged."""
-    logs = []
-    for name in names:
-        base = import_laser(tools.ortung, tools.data, tools.out, name)
-        logs.append({"name": name, "base": base, "fixed": fixed_robot(base)})
-    command = ["eval", "--source", "record:{log.base}.rec", "--robot", "{log.fixed}", "--tables", "{log.base}.ortung", "--start", "{start}",
-               "--seed", "{seed}"]
-    return tools.sweeps.groups("beside", command, {"log": logs, "start": ["truth", "global"], "seed": sweeps.seeds(3)})
-
-
 def mrpt(tools, _):
-    """MRPT's pf-localization, and ours with as many samples beside it."""
+    """MRPT's pf-localization on the logs of `laser`."""
     if shutil.which("pf-localization") is None:
         print("\n## MRPT's pf-localization\n\nLeft out: pf-localization is not installed (Debian: mrpt-apps).")
         return
-    theirs = []
     rows = []
     for samples, seeds, longest in ((2000, 2, 600), (10000, 1, 900)):
-        file = os.path.join(tools.out, "mrpt-%d.json" % samples)
         told = run([os.path.join(HERE, "compare-mrpt.sh"), tools.data, "--samples", str(samples), "--seeds", str(seeds), "--jobs", "1",
-                    "--longest", str(longest), "--budget", "3600", "--json", file])
+                    "--longest", str(longest), "--budget", "3600"])
         lines = [line for line in told.splitlines() if line.startswith("|")]
         rows += lines if not rows else lines[2:]
-        theirs += json.load(open(file))
     print("\n## MRPT's pf-localization\n\n" + "\n".join(rows[:2] + sorted(rows[2:])))
-    print("\n## Side by side\n\n| log | median, ours | MRPT | RMSE, ours | MRPT | lost, ours | MRPT | converged from an unknown start, "
-          "ours | MRPT, 10,000 | MRPT, 2,000 |\n|" + "---|" * 10)
-    ours = ours_beside(tools, dict.fromkeys(t["log"] for t in theirs))
-    for log in dict.fromkeys(t["log"] for t in theirs):
-        its = {(t["start"], t["samples"]): t["runs"] for t in theirs if t["log"] == log}
-        tracked = [r for r in its.get(("truth", 10000), []) if r["converged_after"] is not None]
-        own = [r for r in ours[log, "truth"] if r["converged_after_s"] is not None]
-        converged = lambda runs, key: "%d/%d" % (sum(r[key] is not None for r in runs), len(runs)) if runs else "-"
-        both = []
-        for mine, their in (("position_median_m", "median"), ("position_rmse_m", "rmse")):
-            values = [mean([r["at_corrections"][mine] for r in own]), mean([r[their] for r in tracked])]
-            both += [("**%.3f**" if v == min(values) else "%.3f") % v for v in values]
-        both += ["%.1f%%" % (100 * mean(v)) for v in ([r["at_corrections"]["lost_share"] for r in own], [r["lost"] for r in tracked])]
-        print("| %s | %s | %s | %s | %s |" % (log, " | ".join(both), converged(ours[log, "global"], "converged_after_s"),
-                                             *[converged(its.get(("global", n), []), "converged_after") for n in (10000, 2000)]))
 
 
 def three_ways(tools, _):
@@ -424,7 +395,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=3, help="runs a row; the simulated ones get 20")
     parser.add_argument("--jobs", type=int, default=1, help="evaluations at a time; more of them take each other's time")
     parser.add_argument("--out", default="out/evaluate", help="folder of records, tables, sweeps and their results")
-    parser.add_argument("--write", metavar="FILE", help="put the tables into this page, in place of those that it has")
+    parser.add_argument("--write", metavar="FILE", help="put the tables into this page, or the pages of this folder, in place of those that are there")
     arguments = parser.parse_args()
     parts = arguments.only.split(",")
     if unknown := [p for p in parts if p not in PARTS]:

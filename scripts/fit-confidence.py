@@ -134,7 +134,7 @@ def describe(name, b, runs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ortung", help="of a build with ORTUNG_SWEEP")
-    parser.add_argument("data", help="folder with the recordings, see docs/results.md")
+    parser.add_argument("data", help="folder with the recordings, see docs/results/data.md")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--out", default="out/sweep", help="folder for records and tables")
     parser.add_argument("--write", metavar="FILE", help="say in this page with which constants it was done")

@@ -1,11 +1,22 @@
-"""What evaluate.py prints goes into a page of tables; and the tables of the goalkeeper benchmark there."""
+#!/usr/bin/env python3
+"""Makes docs/results.md, and the charts in it, of docs/results/figures.toml and of the tables that it names.
+
+  scripts/results_page.py [--check] [ROOT]
+
+--check changes nothing, and ends with 1 if page or charts are not what the tables say. Other scripts put what they print into
+pages of tables by `written`; and the tables of the goalkeeper benchmark are made here.
+"""
+import argparse
 import contextlib
+import glob
 import io
 import json
 import os
 import random
 import subprocess
 import sys
+
+import results_figures
 
 EPISODES = 2000
 BOOTSTRAPS = 1000
@@ -74,22 +85,24 @@ def rewrite(file, change):
 
 @contextlib.contextmanager
 def written(file):
-    """Puts the tables that are printed meanwhile into the page, if there is one."""
+    """Puts the tables that are printed meanwhile into the page, or into those pages of a folder that have their marks."""
     if file is None:
         yield
         return
     tee = Tee()
     with contextlib.redirect_stdout(tee):
         yield
-    missing = []
+    tables, of = tables_of(tee.getvalue()), commit()
+    missing = set(put("", tables)[1])
 
     def with_tables(page):
-        text, lacking = put(page, tables_of(tee.getvalue()), commit())
-        missing.extend(lacking)
+        text, lacking = put(page, tables, of)
+        missing.intersection_update(lacking)
         return text
 
-    rewrite(file, with_tables)
-    for mark in missing:
+    for page in sorted(glob.glob(os.path.join(file, "*.md"))) if os.path.isdir(file) else [file]:
+        rewrite(page, with_tables)
+    for mark in sorted(missing):
         print("%s has no line %s, so its table is not there" % (file, mark), file=sys.stderr)
 
 
@@ -136,3 +149,34 @@ def goalkeepers(tools, _):
         head += ["against " + striker if i == 0 else striker, "more than `truth`" if i == 0 else "more"]
     head += ["pose error mean / median [m]", "heading [deg]"]
     print("\n## Goalkeepers\n\n| %s |\n|%s\n%s" % (" | ".join(head), "---|" * len(head), "\n".join(rows)), flush=True)
+
+
+def stale(root):
+    """Files of the page of figures that are not there, or not what the tables say."""
+    for name, text in results_figures.files(root).items():
+        file = os.path.join(root, name)
+        if not os.path.exists(file) or open(file, encoding="utf-8").read() != text:
+            yield name, text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", nargs="?", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    try:
+        found = list(stale(options.root))
+    except results_figures.FigureError as error:
+        sys.exit(str(error))
+    for name, text in found:
+        if options.check:
+            print("%s is not what docs/results/figures.toml and its tables say, expected what scripts/results_page.py makes" % name)
+        else:
+            with open(os.path.join(options.root, name), "w", encoding="utf-8") as file:
+                file.write(text)
+            print("made " + name)
+    return 1 if options.check and found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

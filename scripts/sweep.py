@@ -136,7 +136,7 @@ def put(page, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ortung", help="of a build with ORTUNG_SWEEP")
-    parser.add_argument("data", help="folder with the recordings, see docs/results.md")
+    parser.add_argument("data", help="folder with the recordings, see docs/results/data.md")
     parser.add_argument("--only", help="constants (PART.NAME) or parts of the filter, by commas; default: all")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--out", default="out/sweep", help="folder for records and tables")

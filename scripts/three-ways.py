@@ -4,7 +4,7 @@ and on the record of these.
 
   scripts/three-ways.py ORTUNG [--seeds 5] [--seconds 60] [--check]
 
-Prints a table as docs/results.md has it. --check: ends with 1 if the poses of device and record differ at all, or the
+Prints a table as docs/results/three-ways.md has it. --check: ends with 1 if the poses of device and record differ at all, or the
 errors on the devices are not those of the simulator within the noise.
 """
 import argparse

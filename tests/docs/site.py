@@ -14,7 +14,7 @@ import urllib.parse
 LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src", "video": "src", "audio": "src",
           "object": "data", "embed": "src"}
 # Words that a reader of each kind looks for, with a page that has to be among those that the search finds.
-WORDS = {"kidnap": "docs/method/recovery", "amcl": "docs/ros2", "learnprob": "docs/architecture", "mrclam": "docs/results",
+WORDS = {"kidnap": "docs/method/recovery", "amcl": "docs/ros2", "learnprob": "docs/architecture", "mrclam": "docs/results/landmarks",
          "gymnasium": "docs/learning", "budget_m": "reference/keys", "sensorcontain": "reference/cpp/container-core"}
 
 
