@@ -53,15 +53,21 @@ def tables(text):
     return found
 
 
+def numbers_of(cell):
+    """All numbers in a cell; commas part thousands."""
+    return [float(number.replace(",", "")) for number in NUMBER.findall(cell)]
+
+
 def fits(cell, wanted):
     """Whether a cell is what a series asks for."""
     if isinstance(wanted, str):
         return cell == wanted
+    numbers = numbers_of(cell)
     for word, value in wanted.items():
-        number = NUMBER.search(cell)
-        if word == "starts" and not cell.startswith(value) or word == "unlike" and cell == value:
+        if word in ("least", "most") and not numbers:
             return False
-        if word in ("least", "most") and (not number or (float(number[0]) < value if word == "least" else float(number[0]) > value)):
+        if not {"starts": lambda: cell.startswith(value), "unlike": lambda: cell != value,
+                "least": lambda: numbers[0] >= value, "most": lambda: numbers[0] <= value}[word]():
             return False
     return True
 
@@ -102,7 +108,7 @@ class Series:
             rows = rows[told["nth"]:][:1]
         column = told["column"] if isinstance(told["column"], int) else head.index(told["column"])
         for row in rows:
-            numbers = [float(n.replace(",", "")) for n in NUMBER.findall(row[column])] if column < len(row) else []
+            numbers = numbers_of(row[column]) if column < len(row) else []
             if "of" in told and numbers:
                 numbers.append(float(row[head.index(told["of"])]))
             label = told.get("label_text", "{0}").format(*[row[head.index(n)].strip("`") for n in told.get("label", [])] or [""])
@@ -149,12 +155,12 @@ def headline(figure, series):
 
 def drawn(figure, series):
     """Series of one name are one, in the chart."""
-    merged = {}
+    merged = {}  # name: colour, values
     for one in series:
         if one.told.get("drawn", True):
-            merged.setdefault(one.name, {}).update(one.values)
-    return results_charts.chart("%s: %s" % (figure["title"], headline(figure, series)), figure["unit"], list(merged.items()),
-                                figure.get("most"), figure.get("digits", 0))
+            merged.setdefault(one.name, (one.told.get("colour", len(merged)), {}))[1].update(one.values)
+    return results_charts.chart("%s: %s" % (figure["title"], headline(figure, series)), figure["unit"],
+                                [(name, *rest) for name, rest in merged.items()], figure.get("most"), figure.get("digits", 0))
 
 
 def section(figure, series):
