@@ -66,22 +66,23 @@ def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
     axes.fill(x + radius * np.cos(turn), y + radius * np.sin(turn), facecolor="lightsteelblue", edgecolor="black",
               zorder=3)
     _arrow(axes, pose, radius, color="black")
-    shown = set()
+    colours, drawn = {}, set()
     for feature, sensor in robot.sensors.items():
         mount_x, mount_y, turned = sensor["mount"]
         at = np.array([x + mount_x * np.cos(heading) - mount_y * np.sin(heading),
                        y + mount_x * np.sin(heading) + mount_y * np.cos(heading)])
-        device = feature.rpartition("/")[0]  # whose features sit at one place
-        if device in shown:
+        device = feature.rpartition("/")[0]
+        if (device, *sensor["mount"]) in drawn:  # of a ring each one sits elsewhere
             continue
-        colour = f"C{len(shown) % 10}"
-        shown.add(device)
-        axes.plot(*at, "o", color=colour, markersize=4, zorder=5, label=device)
+        drawn.add((device, *sensor["mount"]))
+        name = None if device in colours else device
+        colour = colours.setdefault(device, f"C{len(colours) % 10}")
+        axes.plot(*at, "o", color=colour, markersize=4, zorder=5, label=name)
         if sensor["fov"]:
             rays = heading + turned + np.linspace(-0.5, 0.5, 40) * sensor["fov"]
             edge = at + reach * np.column_stack([np.cos(rays), np.sin(rays)])
             axes.fill(*np.vstack([at, edge]).T, facecolor=colour, alpha=0.15, zorder=2)
-    if shown:
+    if colours:
         axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     axes.set_title(robot.name)
     return axes
