@@ -324,6 +324,9 @@ class Pictures(unittest.TestCase):
             self.assertEqual(drawn, len(run.estimates))
             body = ortung.draw.robot(ortung.Robot(ROBOT), pose=(1, 2, 0.5))
             self.assertEqual(body.get_title(), "pioneer")
+            ring = ortung.draw.robot(ortung.Robot(ROBOT.parent / "sonar_ring.toml"))
+            self.assertEqual(len(ring.lines), 16)  # a dot for each sonar of the ring,
+            self.assertEqual(len(ring.get_legend().get_texts()), 1)  # and one name
             field = ortung.draw.world(ortung.World(ARENA))
             self.assertLess(field.get_xlim()[0], -3.0)
             for axes in (chart, way, body, field):
