@@ -30,7 +30,7 @@ constexpr std::uint64_t kSeed = 3;
 /// Where a visitor's records go: here, if that is possible.
 std::filesystem::path folderForRecords() {
   std::error_code error;
-  const std::filesystem::path here = std::filesystem::current_path(error);
+  std::filesystem::path here = std::filesystem::current_path(error);
   if (!error && ::access(here.c_str(), W_OK) == 0) return here;
   return std::filesystem::temp_directory_path(error);
 }

@@ -208,7 +208,6 @@ TEST_F(Localize, WrongRatesAndFormatsAreUsageErrors) {
 
 // The robot is switched off half way and goes on from the same place: the hall is searched once.
 TEST_F(Localize, GoesOnWithTheBeliefOfTheRunBefore) {
-  const std::string whole = read("run.rec");
   const double half = static_cast<double>(truth_.rbegin()->first) / 2e6;
   thin("first", [&](double seconds, const std::string&) { return seconds < half; });
   thin("second", [&](double seconds, const std::string&) { return seconds >= half; });

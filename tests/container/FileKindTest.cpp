@@ -82,7 +82,7 @@ TEST(FileKind, SaysWhatWasGivenInstead) {
   EXPECT_EQ(whatItIs("/none"), "");
 }
 
-RC_GTEST_PROP(FileKind, AnyBytesHaveAKind, (std::string bytes)) {
+RC_GTEST_PROP(FileKind, AnyBytesHaveAKind, (const std::string& bytes)) {
   RC_ASSERT(static_cast<int>(kindOfBytes(bytes)) <= static_cast<int>(FileKind::kJson));
 }
 
