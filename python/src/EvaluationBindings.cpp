@@ -98,14 +98,8 @@ Evaluated evaluateRun(const std::string& source, const std::filesystem::path& ro
                       std::optional<std::size_t> particles, std::optional<unsigned> threads,
                       const py::object& start, double convergedMetres, double convergedDegrees,
                       const py::object& progress) {
-  LocalizationConfig config;
-  config.robot = robot;
-  config.tables = tables;
-  config.source = source;
-  config.seed = seed;
-  config.particles = particles;
-  config.threads = threads;
-  config.start = startOf(start);
+  const LocalizationConfig config =
+      configOf(robot, tables, source, seed, particles, threads, start);
   if (source.empty()) throw py::value_error("source is '', expected 'KIND:PATH?key=value'");
   if (!(convergedMetres > 0.0) || !(convergedDegrees > 0.0))
     throw py::value_error("converged_m and converged_deg must be above 0");

@@ -75,14 +75,8 @@ std::string reprOf(const PoseEstimate& e) {
 Shared open(const std::filesystem::path& robot, const std::filesystem::path& tables,
             const std::string& source, std::uint64_t seed, std::optional<std::size_t> particles,
             std::optional<unsigned> threads, const py::object& start) {
-  LocalizationConfig config;
-  config.robot = robot;
-  config.tables = tables;
-  config.source = source;
-  config.seed = seed;
-  config.particles = particles;
-  config.threads = threads;
-  config.start = startOf(start);
+  const LocalizationConfig config =
+      configOf(robot, tables, source, seed, particles, threads, start);
   const auto made = std::make_shared<SharedLocalization>();
   made->hasSource = !source.empty();
   const py::gil_scoped_release others;

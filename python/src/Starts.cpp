@@ -22,4 +22,19 @@ LocalizationStart startOf(const py::object& start) {
   return result;
 }
 
+LocalizationConfig configOf(const std::filesystem::path& robot, const std::filesystem::path& tables,
+                            const std::string& source, std::uint64_t seed,
+                            std::optional<std::size_t> particles, std::optional<unsigned> threads,
+                            const py::object& start) {
+  LocalizationConfig config;
+  config.robot = robot;
+  config.tables = tables;
+  config.source = source;
+  config.seed = seed;
+  config.particles = particles;
+  config.threads = threads;
+  config.start = startOf(start);
+  return config;
+}
+
 }  // namespace ortung::python
