@@ -38,9 +38,9 @@ def plugins(pages):
             + "\n".join("../" + page for page in pages) + "\n```\n")
 
 
-def digest(described):
-    """Of all that the site is made of."""
-    found = hashlib.sha256(described.encode())
+def digest(*told):
+    """Of all that the site is made of. @param told what the program said of itself"""
+    found = hashlib.sha256("\0".join(told).encode())
     names = [name for pattern in ("*.md", "docs/**/*", "plugins/**/*.md", "mcl/*.md", "examples/*.md", "realsensors/*.md",
                                   "board/web/page/*.md", "python/ortung/*.pyi") for name in ROOT.glob(pattern)]
     names += [header for folder, *_ in cpp_api.LIBRARIES for header in cpp_api.headers(ROOT, folder)]
@@ -50,14 +50,15 @@ def digest(described):
     return found.hexdigest()
 
 
-def make_pages(out, described, xml):
+def make_pages(out, described, all_keys, xml):
     """Writes all sources of the site below out.
+    @param all_keys the page of all keys
     @param xml the folder of what doxygen has found; None: without the C++ API"""
     pages = sources.write(ROOT, out)
     place = out / "reference"
     (place / "cpp").mkdir(parents=True, exist_ok=True)
     (place / "commands.md").write_text(commands.page(described))
-    (place / "keys.md").write_text(keys.page(ROOT))
+    (place / "keys.md").write_text(all_keys)
     (place / "plugins.md").write_text(plugins([page for page in pages if page.startswith("plugins/")]))
     (place / "python.rst").write_text(python_api.page(ROOT))
     if xml:
@@ -89,7 +90,12 @@ def main():
     out = pathlib.Path(options.out).resolve()
     pages, html = out / "pages", out / "html"
     described = subprocess.run([options.program, "--describe"], check=True, capture_output=True, text=True).stdout
-    made_of = f"{options.version} {options.quick} {digest(described)}"
+    try:
+        all_keys = keys.page(ROOT, options.program)
+    except sources.SiteError as error:
+        print(error)
+        return 1
+    made_of = f"{options.version} {options.quick} {digest(described, all_keys)}"
     if (out / "made-of").exists() and (out / "made-of").read_text() == made_of:
         print("the site is up to date")
         return 0
@@ -98,7 +104,7 @@ def main():
         shutil.rmtree(folder, ignore_errors=True)
     xml = None if options.quick else cpp_api.read(ROOT, out / "doxygen")
     try:
-        make_pages(pages, described, xml)
+        make_pages(pages, described, all_keys, xml)
     except sources.SiteError as error:
         print(error)
         return 1
