@@ -129,17 +129,20 @@ macro(ortung_describe package)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT ${package} EXCLUDE_FROM_ALL)
 endmacro()
 
-# Files of packages that no target brings.
+# Files of packages that no target brings. The documentation is its site and the examples; without the site there is no
+# package of it.
 function(ortung_install_documents)
-  set(documents DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung COMPONENT ortung-doc EXCLUDE_FROM_ALL)
-  install(FILES README.md ${documents})
-  install(DIRECTORY docs ${documents} PATTERN site EXCLUDE)
-  install(FILES realsensors/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung/realsensors
-          COMPONENT ortung-doc EXCLUDE_FROM_ALL)
-  install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung-doc
-          COMPONENT ortung-doc EXCLUDE_FROM_ALL)
-  install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libortung-dev/examples
-          COMPONENT libortung-dev EXCLUDE_FROM_ALL PATTERN cluster EXCLUDE)
+  if(ORTUNG_DOCS)
+    set(folder ${CMAKE_INSTALL_DATADIR}/doc/ortung)
+    set(documents COMPONENT ortung-doc EXCLUDE_FROM_ALL)
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/docs-site/html DESTINATION ${folder} ${documents} PATTERN .buildinfo EXCLUDE)
+    install(CODE "set(ORTUNG_SITE \${CMAKE_INSTALL_PREFIX}/${folder}/html)\ninclude(${PROJECT_SOURCE_DIR}/cmake/packages/javascript.cmake)"
+            ${documents})
+    install(FILES cmake/packages/doc-base RENAME ortung-doc DESTINATION ${CMAKE_INSTALL_DATADIR}/doc-base ${documents})
+    install(DIRECTORY examples/ DESTINATION ${folder}/examples ${documents} PATTERN cluster EXCLUDE)
+    install(DIRECTORY python/notebooks DESTINATION ${folder}/examples ${documents} FILES_MATCHING PATTERN "*.ipynb")
+    install(FILES ${PROJECT_BINARY_DIR}/packages/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ortung-doc ${documents})
+  endif()
   install(DIRECTORY examples/cluster DESTINATION ${CMAKE_INSTALL_DATADIR}/ortung COMPONENT ortung-sim
           USE_SOURCE_PERMISSIONS)
 endfunction()
@@ -190,7 +193,7 @@ macro(ortung_make_packages)
     "robot localization: headers for robot programs"
     "Headers, and files for CMake and pkg-config, of the libraries in libortung0"
     "and libortung-run0: container, MCL, logs and the client of Ortung's server."
-    "Examples are robot programs.")
+    "Examples are in ortung-doc.")
   ortung_describe(libortung-sim-dev SECTION libdevel NEEDS libortung-dev TEXT
     "robot localization: headers for plugins of the simulator"
     "Headers, and files for CMake and pkg-config, for who writes sensors, drives,"
@@ -243,11 +246,16 @@ macro(ortung_make_packages)
       "Environments to learn in, by the rules of Gymnasium and PettingZoo, and what"
       "a notebook needs of Ortung's robots, tables and records.")
   endif()
-  ortung_describe(ortung-doc SECTION doc ANY_MACHINE TEXT
-    "robot localization: documentation"
-    "Pages about Ortung: sensors, maps, Monte Carlo localization and its tuning,"
-    "the simulator and its protocol, players, cameras and real robots, with"
-    "results on recordings.")
+  if(ORTUNG_DOCS)
+    ortung_describe(ortung-doc SECTION doc ANY_MACHINE DEPENDS libjs-sphinxdoc SUGGESTS www-browser TEXT
+      "robot localization: documentation and examples"
+      "The documentation of Ortung for a browser, with a search that needs no"
+      "network: first steps, guides to sensors, maps, real robots, ROS 2, the"
+      "simulator and players, the method with its formulas, results on recordings,"
+      "and the reference of commands, keys, protocol, C++ and Python."
+      "."
+      "Examples are robot programs in C, C++ and Python, and notebooks.")
+  endif()
 
   # Man pages and completions of the program, once a target makes them.
   if(TARGET ortung_manuals)

@@ -74,11 +74,11 @@ if command -v ortung-ros2 > /dev/null; then
 fi
 
 install /packages/libortung-dev_*.deb
-cmake -S /usr/share/doc/libortung-dev/examples -B build > log || fail "$(cat log)"
+cmake -S /usr/share/doc/ortung/examples -B build > log || fail "$(cat log)"
 cmake --build build > log 2>&1 || fail "$(cat log)"
 [ "$(build/localize $maps/robots/pioneer.toml tables.ortung record:run.rec | wc -l)" = "$poses" ] ||
   fail "the example does not localize"
-cc /usr/share/doc/libortung-dev/examples/avoid.c -o avoid $(pkg-config --cflags --libs ortung-client)
+cc /usr/share/doc/ortung/examples/avoid.c -o avoid $(pkg-config --cflags --libs ortung-client)
 say "examples compile and run"
 install /packages/libortung*-dev_*.deb
 mkdir all
@@ -97,7 +97,16 @@ observation, info = env.reset(seed=1)
 observation, reward, terminated, truncated, info = env.step([0.5, 0.0])
 print("packages: python observes", observation.shape, "of", len(ortung.environments()), "environments")'
 
-install /packages/ortung-doc_*.deb
+# The documentation is a site without anything from elsewhere; its scripts are Debian's.
+site=/usr/share/doc/ortung/html
+for file in index.html docs/index.html docs/start/demo.html reference/keys.html reference/cpp/index.html searchindex.js \
+  _static/searchtools.js _static/scripts/furo.js ../examples/notebooks/own_sensor.ipynb; do
+  [ -s $site/$file ] || fail "the documentation has no $file"
+done
+! grep -rlE '<(script|img|link rel="stylesheet")[^>]*(src|href)="(https?:)?//' $site --include='*.html' ||
+  fail "the pages above fetch something"
+say "documentation: $(find $site -name '*.html' | wc -l) pages"
+
 install /packages/newer/*.deb
 [ "$(dpkg-query -W -f '${Version}\n' $(ours) | sort -u | grep -c newer)" = 1 ] || fail "not all were upgraded"
 ortung --version > log
