@@ -1,6 +1,6 @@
-# The documentation's site: `cmake --build BUILD --target docs-site` makes BUILD/docs-site/html. What it needs of Debian is in
-# scripts/install-deps.sh (all). With ORTUNG_DOCS it is made with everything else, and packages have it. What it is made of is for
-# docs/site/build.py to know, which does nothing if none of it has changed.
+# The documentation's site: `cmake --build BUILD --target docs-site` makes BUILD/docs-site/html. scripts/install-deps.sh installs
+# what it needs of Debian. With ORTUNG_DOCS it is made with everything else, and there is a package of it. What it is made of is
+# for docs/site/build.py to know, which does nothing if none of it has changed.
 function(ortung_docs_site)
   if(ORTUNG_DOCS)
     set(all ALL)

@@ -52,12 +52,12 @@ test=(
   python3-matplotlib
   # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
   chromium
+  # the documentation's site
+  python3-sphinx furo python3-breathe python3-myst-parser python3-sphinx-copybutton doxygen
 )
 all=(
   # Debian packages and libraries, and what looks at them
   dpkg-dev file debootstrap lintian abigail-tools
-  # the documentation's site
-  python3-sphinx furo python3-breathe python3-myst-parser python3-sphinx-copybutton doxygen
   # benchmarks, fuzz targets, format, lint
   libbenchmark-dev clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19
 )

@@ -85,7 +85,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
     if packages := missing():
-        print(f"Skipped\nthe site needs {' '.join(packages)}: scripts/install-deps.sh all")
+        print(f"Skipped\nthe site needs {' '.join(packages)}: scripts/install-deps.sh")
         return SKIPPED
     out = pathlib.Path(options.out).resolve()
     pages, html = out / "pages", out / "html"
