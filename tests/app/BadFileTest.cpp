@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

@@ -1,4 +1,5 @@
 // `ortung sim --digest`.
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "Golden.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 
 namespace ortung::test {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

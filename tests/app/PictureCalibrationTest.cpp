@@ -6,6 +6,7 @@
 
 #include "DecodedPng.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

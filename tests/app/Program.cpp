@@ -1,3 +1,4 @@
+#include "Paths.hpp"
 #include "Program.hpp"
 
 #include <fcntl.h>

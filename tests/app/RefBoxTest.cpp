@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "Paths.hpp"
 #include "Program.hpp"
 #include "StandInBox.hpp"
 

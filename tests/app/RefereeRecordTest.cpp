@@ -1,6 +1,7 @@
 // What a referee decides is in the record of a robot.
 #include <gtest/gtest.h>
 
+#include "Paths.hpp"
 #include "Program.hpp"
 #include "Workspace.hpp"
 #include "ortung/formats/TalkData.hpp"

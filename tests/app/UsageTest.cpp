@@ -1,3 +1,4 @@
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

@@ -5,6 +5,8 @@
 #include "ortung/mcl_served/WorldTables.hpp"
 #include "ortung/served/ServedSimulation.hpp"
 
+#include "Paths.hpp"
+
 namespace {
 
 using namespace ortung;

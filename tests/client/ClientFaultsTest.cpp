@@ -10,6 +10,7 @@
 #include "../server/RunningBoard.hpp"
 #include "Await.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ScriptedServer.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"

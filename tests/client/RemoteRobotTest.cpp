@@ -7,6 +7,7 @@
 #include "../server/RunningBoard.hpp"
 #include "Await.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"
 #include "ortung/formats/OdometryData.hpp"

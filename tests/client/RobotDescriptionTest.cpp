@@ -5,6 +5,7 @@
 
 #include "../server/RunningBoard.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ScriptedServer.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/client/ortung_client.h"

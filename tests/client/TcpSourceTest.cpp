@@ -6,6 +6,7 @@
 #include "../server/RunningBoard.hpp"
 #include "../server/TestClient.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ScriptedServer.hpp"
 #include "ortung/client/RobotSession.hpp"
 #include "ortung/core/PluginFactory.hpp"

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/FileKind.hpp"
 
 namespace ortung {

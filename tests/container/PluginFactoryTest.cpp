@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/motion/MotionModel.hpp"

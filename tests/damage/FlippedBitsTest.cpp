@@ -5,6 +5,7 @@
 
 #include "FlippedBits.hpp"
 #include "Golden.hpp"
+#include "Paths.hpp"
 #include "SmallPngs.hpp"
 #include "WorldModel.hpp"
 #include "ortung/base/HelperProgram.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/PluginFactory.hpp"
 

@@ -1,6 +1,7 @@
 // Recordings of ranges and bearings of beacons, with truth from elsewhere, localized by the
 // program. What was fitted to a log was fitted to its first half; these are the second halves.
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "Files.hpp"
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

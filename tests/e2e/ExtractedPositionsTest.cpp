@@ -6,6 +6,7 @@
 
 #include "Files.hpp"
 #include "FoundPositions.hpp"
+#include "Paths.hpp"
 #include "ortung/formats/ObstaclesData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 #include "ortung/robot/RobotFile.hpp"

@@ -9,6 +9,7 @@
 
 #include "Files.hpp"
 #include "Learn.hpp"
+#include "Paths.hpp"
 #include "ortung/run/Localization.hpp"
 
 namespace ortung::test {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

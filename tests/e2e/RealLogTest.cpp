@@ -1,5 +1,6 @@
 // Recordings of real robots with ground truth from elsewhere, localized by the program.
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "Files.hpp"
 #include "Learn.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ObjectsData.hpp"

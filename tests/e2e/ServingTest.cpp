@@ -14,6 +14,7 @@
 #include "CountingWorld.hpp"
 #include "Files.hpp"
 #include "Interrupt.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 #include "Serving.hpp"
 #include "TestClient.hpp"

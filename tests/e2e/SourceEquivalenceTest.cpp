@@ -8,6 +8,7 @@
 #include "../server/RunningBoard.hpp"
 #include "Files.hpp"
 #include "Learn.hpp"
+#include "Paths.hpp"
 #include "ortung/client/RemoteRobot.hpp"
 #include "ortung/core/ReadingLine.hpp"
 #include "ortung/records/RecordWriter.hpp"

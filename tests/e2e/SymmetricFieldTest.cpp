@@ -1,6 +1,7 @@
 // A soccer field looks the same from two opposite poses to a laser scanner. No reading of it ever
 // tells which one is right, so the status must not be "tracking", however long the robot drives.
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

@@ -1,5 +1,6 @@
 // A robot without scanner or camera knows where it is by what team mates say of it.
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "Folder.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 namespace {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 
 namespace ortung::test {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "Fuzz.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/ros2/McapWriter.hpp"

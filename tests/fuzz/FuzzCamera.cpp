@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Fuzz.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/camera/CameraView.hpp"
 #include "ortung/core/PluginFactory.hpp"

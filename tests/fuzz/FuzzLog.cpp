@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Fuzz.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
 

@@ -6,6 +6,8 @@
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/robot/NetworkRobot.hpp"
 
+#include "Paths.hpp"
+
 namespace {
 
 using namespace ortung;

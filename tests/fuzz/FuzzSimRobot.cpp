@@ -1,6 +1,7 @@
 // A robot file of one's own, with all plugins: its features, shape, drive, [motion] and [mcl], then
 // a few cycles in a small world. network.json is there for those that name a network.
 #include "Fuzz.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/robot/RobotFile.hpp"

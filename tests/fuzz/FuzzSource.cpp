@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "Fuzz.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"

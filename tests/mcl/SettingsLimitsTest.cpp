@@ -8,6 +8,7 @@
 #include <string>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "FakeRobots.hpp"
 #include "LocalizedArena.hpp"
+#include "Paths.hpp"
 #include "TestClient.hpp"
 #include "ortung/run/FieldMaps.hpp"
 

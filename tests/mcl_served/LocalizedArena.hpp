@@ -5,6 +5,7 @@
 #include <string>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/mcl_served/LocalizedWorld.hpp"
 #include "ortung/mcl_served/WorldTables.hpp"

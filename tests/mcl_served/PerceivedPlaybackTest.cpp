@@ -9,6 +9,7 @@
 #include "FakeRobots.hpp"
 #include "Files.hpp"
 #include "LocalizedArena.hpp"
+#include "Paths.hpp"
 #include "TestClient.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/mcl_served/HeatMap.hpp"

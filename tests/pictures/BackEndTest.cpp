@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "Paths.hpp"
 #include "Snapshots.hpp"
 #include "ortung/base/Angles.hpp"
 

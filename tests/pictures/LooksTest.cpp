@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "Paths.hpp"
 #include "Snapshots.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/InstructionSet.hpp"

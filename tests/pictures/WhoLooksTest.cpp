@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/core/PluginFactory.hpp"

@@ -5,6 +5,7 @@
 
 #include "Await.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 #include "TestClient.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "Paths.hpp"
 #include "PlayedScene.hpp"
 #include "RunningBoard.hpp"
 #include "ortung/remote/RemotePlay.hpp"

@@ -9,6 +9,7 @@
 
 #include "Await.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "PlayedScene.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"

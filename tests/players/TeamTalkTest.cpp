@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/PluginFactory.hpp"

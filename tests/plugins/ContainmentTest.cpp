@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginGuard.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/formats/OdometryData.hpp"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 #include "ortung/records/RecordSource.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "Files.hpp"
 #include "KnownKeys.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/motion/MotionModel.hpp"

@@ -20,6 +20,8 @@
 #include "sensors/odometry/OdometrySettings.hpp"
 #include "sensors/sonar/SonarSettings.hpp"
 
+#include "Paths.hpp"
+
 namespace ortung {
 namespace {
 

@@ -12,6 +12,8 @@
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
 
+#include "Paths.hpp"
+
 namespace ortung {
 namespace {
 

@@ -1,4 +1,5 @@
 #include "LogTesting.hpp"
+#include "Paths.hpp"
 
 #include <unistd.h>
 

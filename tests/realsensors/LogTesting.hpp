@@ -67,5 +67,5 @@ std::filesystem::path sharedData(const std::string& name);
 #define ORTUNG_NEED_DATA(variable, name)                                    \
   const std::filesystem::path variable = ortung::testing::sharedData(name); \
   if (variable.empty())                                                     \
-  GTEST_SKIP() << "real log " << name << " is not here: " << ORTUNG_SHARED_DATA
+  GTEST_SKIP() << "real log " << name << " is not here: ../shared/data"
 // NOLINTEND(bugprone-macro-parentheses)

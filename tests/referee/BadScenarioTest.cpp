@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Scenario.hpp"
 
 namespace ortung::test {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "FakeStage.hpp"
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/refbox/BoxCommand.hpp"
 #include "ortung/sim_api/Referee.hpp"

@@ -2,6 +2,7 @@
 
 #include "FakeWorld.hpp"
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Pitch.hpp"
 #include "ortung/sim/SimWorld.hpp"
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "FakeStage.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/sim_api/Referee.hpp"

@@ -4,6 +4,7 @@
 
 #include "Files.hpp"
 #include "KnownKeys.hpp"
+#include "Paths.hpp"
 #include "Rules.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/PluginFactory.hpp"

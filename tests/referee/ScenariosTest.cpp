@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <set>
 
+#include "Paths.hpp"
 #include "Scenario.hpp"
 
 namespace {

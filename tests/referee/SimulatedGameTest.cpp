@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/robot/RobotFile.hpp"

@@ -11,6 +11,7 @@
 #include "../support/Files.hpp"
 #include "AmclParameters.hpp"
 #include "ParamsFile.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/robot/RobotFile.hpp"

@@ -19,6 +19,7 @@
 
 #include "NodeMessages.hpp"
 #include "Participant.hpp"
+#include "Paths.hpp"
 #include "ortung/ros2/Messages.hpp"
 
 namespace ortung::ros2 {

@@ -1,6 +1,7 @@
 // Cameras of robots on a server draw for whoever asks.
 #include <gtest/gtest.h>
 
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/served/ServedSimulation.hpp"

@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/base/Angles.hpp"

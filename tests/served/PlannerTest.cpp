@@ -1,6 +1,7 @@
 // Floor plans: robots of clients come in all sizes, one after the other.
 #include <gtest/gtest.h>
 
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/served/ServedSimulation.hpp"

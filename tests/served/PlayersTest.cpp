@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ProtocolPage.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/core/BinaryReading.hpp"

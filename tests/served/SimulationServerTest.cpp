@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
 #include "ortung/served/ServedSimulation.hpp"

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "Command.hpp"
+#include "Paths.hpp"
 #include "ProtocolPage.hpp"
 
 namespace ortung::test {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/server/BoardCommand.hpp"
 
 namespace ortung::test {

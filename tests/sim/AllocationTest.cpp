@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "CountedAllocations.hpp"
+#include "Paths.hpp"
 #include "ortung/core/SensorContainer.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/ScanData.hpp"

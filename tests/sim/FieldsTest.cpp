@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 
 namespace ortung::test {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/RoutePlanner.hpp"

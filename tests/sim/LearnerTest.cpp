@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "FakeWorld.hpp"
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/formats/ScanData.hpp"
 #include "ortung/robot/TomlFile.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "ortung/robot/TableInfo.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Learner.hpp"

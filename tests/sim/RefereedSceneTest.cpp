@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/sim/Scene.hpp"
 #include "ortung/sim/SceneRun.hpp"

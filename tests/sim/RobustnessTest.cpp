@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "ortung/sim/Simulation.hpp"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "Paths.hpp"
 #include "WorldFiles.hpp"
 #include "ortung/sim/PlayerControl.hpp"
 #include "ortung/sim/SceneRun.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 
 namespace ortung::test {
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "MslLines.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/calibration/ImageFile.hpp"

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "MslLines.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/calibration/ImageFile.hpp"
 #include "ortung/calibration/LineCalibration.hpp"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "MarkedLines.hpp"
+#include "Paths.hpp"
 #include "ortung/calibration/ImageFile.hpp"
 #include "ortung/vision/LineFinder.hpp"
 

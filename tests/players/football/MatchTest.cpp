@@ -9,6 +9,8 @@
 #include "ortung/sim/RunDigest.hpp"
 #include "ortung/sim/SceneRun.hpp"
 
+#include "Paths.hpp"
+
 namespace ortung {
 namespace {
 

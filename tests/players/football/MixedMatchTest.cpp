@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Files.hpp"
+#include "Paths.hpp"
 #include "Program.hpp"
 
 namespace ortung::test {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "Desk.hpp"
+#include "Paths.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/emulators/EmulatedHokuyo.hpp"
