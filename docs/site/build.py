@@ -22,6 +22,7 @@ import sources
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 NEEDED = {"sphinx": "python3-sphinx", "furo": "furo", "breathe": "python3-breathe", "myst_parser": "python3-myst-parser",
           "sphinx_copybutton": "python3-sphinx-copybutton"}
+NORMALIZE = "/javascript/normalize.css/normalize.css"
 SKIPPED = 77
 
 
@@ -77,6 +78,14 @@ def run_sphinx(pages, html, version, xml):
                           env=environment, check=False).returncode
 
 
+def bring_normalize(html):
+    """Debian's furo takes a style sheet from the root of the server that the site is on; a site is often no more than files."""
+    style = html / "_static/styles/furo.css"
+    text = style.read_text(encoding="utf-8")
+    shutil.copy("/usr/share" + NORMALIZE, style.parent)
+    style.write_text(text.replace(NORMALIZE, "normalize.css"), encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out")
@@ -110,6 +119,7 @@ def main():
         return 1
     if code := run_sphinx(pages, html, options.version, xml):
         return code
+    bring_normalize(html)
     (html / "index.html").write_text('<!doctype html><meta charset="utf-8"><title>Ortung</title>'
                                      '<meta http-equiv="refresh" content="0; url=docs/index.html">'
                                      '<a href="docs/index.html">Ortung</a>\n')

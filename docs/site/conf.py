@@ -32,6 +32,7 @@ html_static_path = [os.environ["ORTUNG_SITE_STATIC"]]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
+html_show_search_summary = False  # each is fetched, which browsers refuse to pages that are files
 html_math_renderer = "mathml"
 copybutton_prompt_text = "$ "
 copybutton_only_copy_prompt_lines = False

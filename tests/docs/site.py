@@ -82,7 +82,7 @@ class Site:
             if page.headless and name not in ("genindex.html",) and not name.startswith("reference/cpp/"):
                 yield f"{name}: {page.headless} tables without a head"
         for style in self.root.rglob("*.css"):
-            for url in re.findall(r"(?:@import\s+|url\()\s*[\"']?((?:https?:)?//[^\"')]+)", style.read_text(encoding="utf-8")):
+            for url in re.findall(r"(?:@import\s+|url\()\s*[\"']?((?:https?:)?/[^\"')]+)", style.read_text(encoding="utf-8")):
                 yield f"{style.relative_to(self.root)}: loads {url}, expected nothing from elsewhere"
         yield from self.unreachable()
         yield from self.wrong_search()
