@@ -127,10 +127,11 @@ def page(root, program):
              "with what it may hold and its default, as the program and its plugins say them. A file with a key that is not here is "
              "refused with its line and the nearest known key; `ortung check FILE` looks at a file without running anything, and "
              "`ortung check --schema robot` prints the same for editors.", "",
-             "| key | of | holds | default | meaning |", "|---|---|---|---|---|"]
+             "| key | holds | meaning |", "|---|---|---|"]
     for (key, what, default, meaning, name, heading), tables in sorted(merged.items(), key=lambda item: item[0][0].lower()):
         of = "; ".join(f"`{table}`" + (": " + ", ".join(filter(None, plugins)) if any(plugins) else "")
                        for table, plugins in tables.items())
-        shown = default if default.startswith("`") or not re.match(r'^[\w"\[]', default) or " " in default.strip('[]"') else f"`{default}`"
-        lines.append(f"| `{key}` | {of} | {what} | {shown} | {moved(meaning, name)} ([{heading.replace('`', '')}](../{name}#{slug(heading)})) |")
+        value = "; ".join(filter(None, (what, default and (default if default == "must be there" else f"default: {default}"))))
+        place = f"[{heading.replace('`', '')}](../{name}#{slug(heading)})"
+        lines.append(f"| `{key}` of {of} | {value} | {moved(meaning, name)} ({place}) |")
     return "\n".join(lines) + "\n"
