@@ -1,14 +1,12 @@
 // The page of the viewer in a real browser, with the real program: node --test e2e/
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, beforeEach, describe, it } from "node:test";
-import { onScreen, openPage, out, runProgram, startBrowser, startClient, startProgram, until } from "./program.mjs";
+import { checkAccess, onScreen, openPage, out, runProgram, startBrowser, startClient, startProgram, until } from "./program.mjs";
 
 const kMatch = ["sim", "maps/scenes/f2000_match.toml"];
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 let browser;
 before(async () => (browser = await startBrowser()));
@@ -16,24 +14,6 @@ after(() => browser.close());
 
 const robot = (page, name) => page.getByRole("img", { name: new RegExp(`^${name} at `) });
 const tab = (page, name) => page.getByRole("tab", { name });
-
-/** Nothing in the panel is wider than it is, and nothing that axe finds fault with, in dark and in light; a picture of each. */
-async function checkAccess(page, what) {
-  const tooWide = await page.locator("#panel").evaluate((panel) => panel.scrollWidth - panel.clientWidth);
-  assert.ok(tooWide <= 0, `${what}: the panel's contents are ${tooWide} px wider than the panel`);
-  for (const colorScheme of ["dark", "light"]) {
-    await page.emulateMedia({ colorScheme });
-    // Until the page has seen it: colours are of the system, not of the style sheet alone.
-    await page.waitForFunction((scheme) => document.documentElement.dataset.theme === scheme, colorScheme);
-    // Colours fade into each other.
-    await page.evaluate(() => Promise.all(document.getAnimations().map((animation) => animation.finished.catch(() => {}))));
-    // The policy of the page permits no script from elsewhere: the debugger puts it in.
-    const found = await page.evaluate(`${axe}; axe.run()`);
-    const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
-    assert.deepEqual(texts, [], `${what}, ${colorScheme}`);
-    await page.screenshot({ path: join(out, `${what}-${colorScheme}.png`) });
-  }
-}
 
 /** Each feature of the robot is of a format that the page knows, and its scan and its localization read what they do. */
 async function checkReadings(page, what) {
@@ -51,7 +31,7 @@ async function checkReadings(page, what) {
 async function checkPanels(page, what, last = "Game") {
   for (const panel of ["Robots", "Sensors", "Localization", last]) {
     await tab(page, panel).click();
-    await page.waitForFunction(() => document.querySelector("#panel .block"));
+    await page.waitForFunction(() => document.querySelector(".panel .block"));
     await checkAccess(page, `${what}-${panel}`);
   }
 }

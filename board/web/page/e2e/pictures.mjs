@@ -52,9 +52,9 @@ async function ofLocalization() {
   await atTime(curves, 18);
   await client.ask("PAUSE");
   for (const page of [curves, maps]) {
-    await page.locator("#panel canvas").nth(12).waitFor();
+    await page.locator(".panel canvas").nth(12).waitFor();
     // The map of what stands still is that of its last readings.
-    await until("the map is up to date", async () => /^0\.[0-2] s old/.test((await page.locator("#panel").getByText(/ s old$/).textContent()) ?? ""));
+    await until("the map is up to date", async () => /^0\.[0-2] s old/.test((await page.locator(".panel").first().getByText(/ s old$/).textContent()) ?? ""));
   }
   await curves.getByText("Over time").evaluate((title) => title.scrollIntoView());
   await save(curves, "viewer-localization.png");

@@ -1,7 +1,9 @@
 // The real program, a second client of its board, and a real browser, for the tests.
+import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { createConnection } from "node:net";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { createInterface } from "node:readline";
@@ -11,6 +13,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 export const root = join(here, "..", "..", "..", "..");
 export const out = join(here, "out");
 const program = process.env.ORTUNG ?? join(root, "build", "dev", "bin", "ortung");
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 mkdirSync(out, { recursive: true });
 
 /** Asks again until the answer is not false; @throws what it last said after @p seconds */
@@ -116,4 +119,22 @@ export async function onScreen(page, x, y) {
     /matrix\((.*)\)/.exec(group.getAttribute("transform"))[1].split(" ").map(Number));
   const box = await page.locator(".over").boundingBox();
   return { x: box.x + a * x + c * y + e, y: box.y + b * x + d * y + f };
+}
+
+/** Nothing in a panel is wider than it is, and nothing that axe finds fault with, in dark and in light; a picture of each. */
+export async function checkAccess(page, what) {
+  const tooWide = await page.locator(".panel").evaluateAll((all) => Math.max(...all.map((panel) => panel.scrollWidth - panel.clientWidth)));
+  assert.ok(tooWide <= 0, `${what}: the panel's contents are ${tooWide} px wider than the panel`);
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    // Until the page has seen it: colours are of the system, not of the style sheet alone.
+    await page.waitForFunction((scheme) => document.documentElement.dataset.theme === scheme, colorScheme);
+    // Colours fade into each other.
+    await page.evaluate(() => Promise.all(document.getAnimations().map((animation) => animation.finished.catch(() => {}))));
+    // The policy of the page permits no script from elsewhere: the debugger puts it in.
+    const found = await page.evaluate(`${axe}; axe.run()`);
+    const texts = found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 160)).join(" | ")}`);
+    assert.deepEqual(texts, [], `${what}, ${colorScheme}`);
+    await page.screenshot({ path: join(out, `${what}-${colorScheme}.png`) });
+  }
 }

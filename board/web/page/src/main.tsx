@@ -56,7 +56,7 @@ const settle = () => {
     insight.clear();
   }
   demo?.look();
-  if (board.robots.size) ui.showSelection(board.selected);
+  ui.showSelection(board.robots.size ? board.selected : (address.robot ?? 0));
 };
 ui.onChange(settle);
 session.board.onTouch(settle);

@@ -6,12 +6,13 @@ import { describe, expect, it } from "vitest";
 const kMay: Record<string, string[]> = {
   link: [],
   model: ["link"],
-  ui: ["model", "link"],
+  layout: [],
+  ui: ["layout", "model", "link"],
   field: ["ui", "model", "link"],
   scene: ["field", "ui", "model", "link"],
-  panels: ["field", "ui", "model", "link"],
-  app: ["panels", "scene", "field", "ui", "model", "link"],
-  "": ["app", "ui", "model", "link"],
+  panels: ["field", "ui", "layout", "model", "link"],
+  app: ["panels", "scene", "field", "ui", "layout", "model", "link"],
+  "": ["app", "ui", "layout", "model", "link"],
 };
 
 const kSource = new URL("../src/", import.meta.url).pathname;

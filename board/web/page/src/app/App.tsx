@@ -1,33 +1,22 @@
 import { useEffect, useState } from "preact/hooks";
+import { oneGroup } from "../layout/Layout";
 import { Divider } from "../panels/Divider";
-import type { Board } from "../model/Board";
-import { GamePanel } from "../panels/Game";
 import { Help } from "../panels/Help";
-import { LocalizationPanel } from "../panels/Localization";
-import { RobotsPanel } from "../panels/Robots";
+import { LayoutNote } from "../panels/PageMenu";
 import { SaidBar } from "../panels/Said";
-import { SensorsPanel } from "../panels/Sensors";
 import { TimeLine } from "../panels/TimeLine";
 import { TopBar } from "../panels/TopBar";
 import { useBoard, usePage } from "../ui/context";
-import { kPanels, type Panel } from "../ui/Ui";
+import { useNarrow } from "../ui/narrow";
+import { kFieldHeight } from "../ui/sizes";
 import { FieldView } from "./FieldView";
-
-const kTitles: Record<Exclude<Panel, "game">, string> = {
-  robots: "Robots",
-  sensors: "Sensors",
-  localization: "Localization",
-};
-
-/** What the panel of the world itself is called. */
-function titleOfWorld(board: Board): string {
-  if (board.kind === "record") return "Record";
-  return board.isGame ? "Game" : "World";
-}
+import { AreaView, EdgeOf, GroupView } from "./Groups";
+import { Large } from "./Large";
 
 export function App() {
   const board = useBoard(250);
   const { ui } = usePage();
+  const isNarrow = useNarrow();
   useEffect(() => {
     document.title = board.worldName ? `${board.worldName} – Ortung` : "Ortung";
   }, [board.worldName]);
@@ -36,50 +25,54 @@ export function App() {
       <TopBar />
       <LinkNote />
       <TokenNote />
-      <main class="work" style={{ "--side": `${ui.sideWidth}px`, "--field": `${ui.fieldHeight}%` }}>
-        <section class="stage" aria-label="Field">
-          <FieldView />
-          {board.world && board.world.kind === "record" && <TimeLine />}
-        </section>
-        <Divider />
-        <aside class="side" aria-label="Panels">
-          <div class="tabs" role="tablist" aria-label="Panels" onKeyDown={turn}>
-            {kPanels.map((name) => (
-              <button
-                key={name}
-                role="tab"
-                id={`tab-${name}`}
-                aria-controls="panel"
-                aria-selected={ui.panel === name}
-                tabIndex={ui.panel === name ? 0 : -1}
-                onClick={() => ui.change({ panel: name })}
-              >
-                {name === "game" ? titleOfWorld(board) : kTitles[name]}
-              </button>
-            ))}
-          </div>
-          <div class="panel" role="tabpanel" id="panel" aria-labelledby={`tab-${ui.panel}`} tabIndex={0}>
-            {ui.panel === "robots" && <RobotsPanel />}
-            {ui.panel === "sensors" && <SensorsPanel />}
-            {ui.panel === "localization" && <LocalizationPanel />}
-            {ui.panel === "game" && <GamePanel />}
-          </div>
-        </aside>
+      <LayoutNote />
+      <main class="work" style={{ "--field": `${ui.fieldHeight}%` }}>
+        {!isNarrow && <AreaView key="left" area="left" />}
+        {!isNarrow && <EdgeOf key="edge-left" area="left" />}
+        <div class="middle" key="middle">
+          <section class="stage" aria-label="Field">
+            <FieldView />
+            {board.world && board.world.kind === "record" && <TimeLine />}
+          </section>
+          {!isNarrow && <EdgeOf area="bottom" />}
+          {!isNarrow && <AreaView area="bottom" />}
+          {!isNarrow && <Large />}
+        </div>
+        {!isNarrow && <EdgeOf key="edge-right" area="right" />}
+        {!isNarrow && <AreaView key="right" area="right" />}
+        {isNarrow && <Narrow key="narrow" />}
       </main>
       <SaidBar />
       {ui.isHelpOpen && <Help />}
     </div>
   );
+}
 
-  /** Arrow keys go from tab to tab. */
-  function turn(event: KeyboardEvent) {
-    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!by) return;
-    event.preventDefault();
-    const next = kPanels[(kPanels.indexOf(ui.panel) + by + kPanels.length) % kPanels.length]!;
-    ui.change({ panel: next });
-    document.getElementById(`tab-${next}`)?.focus();
-  }
+/** All panels as tabs below the field. */
+function Narrow() {
+  const { ui } = usePage();
+  const group = oneGroup(ui.layout, ui.panel);
+  return (
+    <>
+      <Divider
+        label="Height of the field"
+        axis="y"
+        grows={1}
+        range={kFieldHeight}
+        value={ui.fieldHeight}
+        controls="side-all"
+        valueAt={(_, y, handle) => {
+          const box = handle.parentElement!.getBoundingClientRect();
+          return (100 * (y - box.top)) / box.height;
+        }}
+        onSet={(fieldHeight) => ui.change({ fieldHeight })}
+      />
+      <aside class="side all" id="side-all" aria-label="Panels">
+        {group.panels.length > 0 && <GroupView group={group} id="all" />}
+      </aside>
+      <Large />
+    </>
+  );
 }
 
 /** Asks for the token that the server has printed. */

@@ -6,6 +6,8 @@ export interface Address {
   panel: string | null;
   /** Shows how a robot finds its place, from the beginning. */
   demo: boolean;
+  /** How the page is arranged, as layout/text.ts writes it; null: as it was kept. Hostile. */
+  layout: string | null;
 }
 
 export function parseAddress(fragment: string): Address {
@@ -17,6 +19,7 @@ export function parseAddress(fragment: string): Address {
     follow: keys.get("follow") === "1",
     panel: keys.get("panel"),
     demo: keys.get("demo") === "1",
+    layout: keys.get("layout"),
   };
 }
 
@@ -28,6 +31,7 @@ export function toFragment(address: Address): string {
   if (address.follow) keys.set("follow", "1");
   if (address.panel) keys.set("panel", address.panel);
   if (address.demo) keys.set("demo", "1");
+  if (address.layout) keys.set("layout", address.layout);
   return keys.size ? `#${keys}` : "";
 }
 

@@ -37,6 +37,14 @@ export class History {
     return this.series.has(`${feature} ${name}`);
   }
 
+  /** Follows a series that a panel shows, by its key. */
+  follow(key: string, label: string, unit: string): void {
+    if (this.series.has(key) || !key.includes("/")) return;
+    this.add(key, label, unit);
+    this.version++;
+    this.whole?.wanted();
+  }
+
   add(key: string, label: string, unit: string): Series {
     const series = { key, label, unit, times: [], values: [] };
     this.series.set(key, series);

@@ -1,24 +1,25 @@
-import { useEffect, useRef } from "preact/hooks";
-import uPlot from "uplot";
+import { useEffect } from "preact/hooks";
+import { curvesOf, nameOfKey, type CurveRef, type PanelId } from "../layout/curves";
+import { keysOut, takenOut } from "../layout/moves";
+import type { Series } from "../model/History";
 import { useBoard, usePage } from "../ui/context";
-import { kSafe } from "../field/palette";
-import { plain } from "../link/words";
-import { valueAt, type Series } from "../model/History";
-import { kLongAgo, seconds, Section } from "./parts";
+import { Chart } from "./Chart";
+import { Section } from "./parts";
 
-const kPeriod = 100;
-const kHeight = 110;
+// Runs are far apart where they are metres from each other: errors of centimetres have a chart of their own.
+const groupOf = ({ key, unit }: Series) => (key.startsWith("apart") ? `${unit} apart` : unit);
 
-/** Numbers over time: one chart a unit, all that somebody has chosen. */
-/** @param only of keys that begin so */
+/**
+ * Numbers over time: one chart a unit, all that somebody has chosen and that have no panel of their own.
+ * @param only of keys that begin so
+ */
 export function Curves({ only }: { only?: string[] }) {
   const { session, ui } = usePage();
   useBoard(500);
+  const out = keysOut(ui.layout);
   const shown = [...session.history.series.values()].filter(
-    ({ key }) => only === undefined || only.some((begin) => key.startsWith(begin)),
+    ({ key }) => !out.has(key) && (only === undefined || only.some((begin) => key.startsWith(begin))),
   );
-  // Runs are far apart where they are metres from each other: errors of centimetres have a chart of their own.
-  const groupOf = ({ key, unit }: Series) => (key.startsWith("apart") ? `${unit} apart` : unit);
   const groups = [...new Set(shown.map(groupOf))];
   if (!shown.length) return null;
   return (
@@ -26,12 +27,23 @@ export function Curves({ only }: { only?: string[] }) {
       {groups.map((group) => {
         const series = shown.filter((one) => groupOf(one) === group);
         const { unit } = series[0]!;
-        return <Chart key={`${group} ${series.map(({ key }) => key).join()}`} series={series} unit={unit} />;
+        return (
+          <Chart
+            key={`${group} ${series.map(({ key }) => key).join()}`}
+            series={series}
+            unit={unit}
+            fills={false}
+            onOut={(curve) => {
+              const { layout } = ui;
+              ui.change({ layout: takenOut(layout, [curve], { area: "bottom", before: layout.groups.bottom.length }) });
+            }}
+          />
+        );
       })}
       {only === undefined && (
         <button
           onClick={() => {
-            session.history.series.clear();
+            for (const { key } of shown) session.history.series.delete(key);
             ui.change({});
           }}
         >
@@ -42,90 +54,31 @@ export function Curves({ only }: { only?: string[] }) {
   );
 }
 
-function Chart({ series, unit }: { series: Series[]; unit: string }) {
+/** A panel of curves that were taken out, as large as its place is. */
+export function CurvesPanel({ panel }: { panel: PanelId }) {
   const { session, ui } = usePage();
-  const { whole } = session.history;
-  const place = useRef<HTMLDivElement>(null);
-  const isDark = ui.isDark;
+  const board = useBoard(500);
+  const { history } = session;
+  const curves = curvesOf(panel) ?? [];
   useEffect(() => {
-    const element = place.current!;
-    const ink = getComputedStyle(element).color;
-    /** A line where a record is. */
-    const drawNow = (drawn: uPlot) => {
-      if (!whole) return;
-      const { ctx, bbox } = drawn;
-      const x = Math.round(drawn.valToPos(session.board.now / 1e6, "x", true));
-      ctx.fillStyle = ink;
-      ctx.fillRect(x, bbox.top, Math.max(1, window.devicePixelRatio), bbox.height);
-    };
-    const grid = { stroke: isDark ? "#ffffff18" : "#00000014", width: 1 };
-    const axis = { stroke: ink, grid, ticks: { show: false }, font: "11px system-ui" };
-    const chart = new uPlot(
-      {
-        width: Math.max(160, element.clientWidth),
-        height: kHeight,
-        scales: { x: { time: false, ...(whole && { range: [whole.begin, whole.end] as [number, number] }) } },
-        legend: { show: false },
-        hooks: { draw: [drawNow] },
-        cursor: { y: false, drag: { x: false, y: false } },
-        axes: [
-          { ...axis, size: 22, values: (_, ticks) => ticks.map(timeOf) },
-          { ...axis, size: 46, values: (_, ticks) => ticks.map((t) => String(Number(t.toPrecision(4)))) },
-        ],
-        series: [{}, ...series.map(({ label }, i) => ({ label, stroke: kSafe[i % kSafe.length]!, width: 1.5, points: { show: false } }))],
-      },
-      joined(session.history.series, series),
-      element,
-    );
-    let version = -1;
-    let now = -1;
-    const timer = setInterval(() => {
-      if (version !== session.history.version) chart.setData(joined(session.history.series, series));
-      else if (whole && now !== session.board.now) chart.redraw(false, false);
-      version = session.history.version;
-      now = session.board.now;
-    }, kPeriod);
-    const goThere = ({ offsetX }: MouseEvent) => {
-      const { board } = session;
-      if (!whole || !board.isOperator || !board.can("SEEK")) return;
-      void session.act(`SEEK time_s=${plain(Math.max(0, chart.posToVal(offsetX, "x") - whole.begin))}`, "time");
-    };
-    chart.over.addEventListener("click", goThere);
-    const watcher = new ResizeObserver(() => chart.setSize({ width: Math.max(160, element.clientWidth), height: kHeight }));
-    watcher.observe(element);
-    return () => {
-      clearInterval(timer);
-      watcher.disconnect();
-      chart.destroy();
-    };
-  }, [series.map(({ key }) => key).join(), isDark, session, whole]);
+    for (const { key, unit } of curves) history.follow(key, nameOfKey(key), unit);
+  }, [panel, history]);
+  const there = curves.flatMap(({ key }) => history.series.get(key) ?? []);
+  if (!there.length) {
+    const who = board.robot?.label ?? "the robot";
+    return <p class="hint">{curves.map(({ key }) => nameOfKey(key)).join(", ")}: {who} has no values of it so far.</p>;
+  }
+  const out = (curve: CurveRef) => {
+    const { layout } = ui;
+    ui.change({ layout: takenOut(layout, [curve], { area: "bottom", before: layout.groups.bottom.length }) });
+  };
   return (
-    <figure class="chart">
-      <figcaption>
-        {series.map((one, i) => {
-          const { key, label } = one;
-          return (
-          <span key={key}>
-            <svg viewBox="0 0 10 10" class="swatch" aria-hidden="true">
-              <rect y="3" width="10" height="4" fill={kSafe[i % kSafe.length]} />
-            </svg>
-            {label} <b>{(whole ? valueAt(one, session.board.now / 1e6) : one.values.at(-1))?.toFixed(2) ?? "–"}</b> {unit}
-          </span>
-          );
-        })}
-      </figcaption>
-      <div ref={place} />
-    </figure>
+    <Chart
+      key={there.map(({ key }) => key).join()}
+      series={there}
+      unit={curves[0]!.unit}
+      fills
+      onOut={curves.length > 1 ? out : undefined}
+    />
   );
-}
-
-/** Of a robot's own clock, which counts from 1970, the time of day. */
-const timeOf = (time: number): string => (time < kLongAgo ? `${time} s` : seconds(time * 1e6));
-
-/** One axis of time for all: where a series has no value it has a gap that is drawn over. */
-function joined(known: Map<string, Series>, shown: Series[]): uPlot.AlignedData {
-  // Series of a record are made anew when another run is selected.
-  const series = shown.map((one) => known.get(one.key) ?? one);
-  if (series.length === 1) return [series[0]!.times, series[0]!.values];
-  return uPlot.join(series.map(({ times, values }) => [times, values]));
 }

@@ -1,42 +1,45 @@
-import { useEffect, useState } from "preact/hooks";
-import { usePage } from "../ui/context";
-import { kFieldHeight, kSideWidth, within } from "../ui/sizes";
+import { within } from "../layout/Layout";
 
-const kNarrow = "(max-width: 900px)";
-
-/** The edge between field and panels: dragged, moved by arrow keys, put back by a double click. */
-export function Divider() {
-  const { ui } = usePage();
-  const isNarrow = useNarrow();
-  const range = isNarrow ? kFieldHeight : kSideWidth;
-  const value = isNarrow ? ui.fieldHeight : ui.sideWidth;
+/** An edge that is dragged, moved by arrow keys, put back by a double click. */
+export function Divider(props: {
+  label: string;
+  /** Along which the edge moves. */
+  axis: "x" | "y";
+  /** 1: what it sizes grows to the right or downwards; -1: to the left or upwards. */
+  grows: 1 | -1;
+  range: { least: number; most: number; usual: number; step: number };
+  value: number;
+  controls: string;
+  /** The value that puts the edge under a pointer. */
+  valueAt(x: number, y: number, handle: HTMLElement): number;
+  onSet(value: number): void;
+}) {
+  const { axis, grows, range, value, onSet } = props;
   const set = (wanted: number) => {
     const next = within(wanted, range);
-    if (next !== value) ui.change(isNarrow ? { fieldHeight: next } : { sideWidth: next });
+    if (next !== value) onSet(next);
   };
   const drag = (event: PointerEvent) => {
     const handle = event.currentTarget as HTMLElement;
-    if (!handle.hasPointerCapture(event.pointerId)) return;
-    const box = handle.parentElement!.getBoundingClientRect();
-    set(isNarrow ? (100 * (event.clientY - box.top)) / box.height : box.right - event.clientX);
+    if (handle.hasPointerCapture(event.pointerId)) set(props.valueAt(event.clientX, event.clientY, handle));
   };
   const press = (event: KeyboardEvent) => {
-    // To the left and upwards the edge goes: panels get wider, the field lower.
+    // To the left and upwards the edge goes: panels at the right get wider, the field lower.
     const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
     const end = { Home: range.least, End: range.most }[event.key];
     if (by === undefined && end === undefined) return;
     event.preventDefault();
     event.stopPropagation();
-    set(end ?? value + (isNarrow ? 1 : -1) * by! * range.step);
+    set(end ?? value + grows * by! * range.step);
   };
   return (
     <div
-      class="divider"
+      class={`divider along-${axis}`}
       role="separator"
       tabIndex={0}
-      aria-label={isNarrow ? "Height of the field" : "Width of the panels"}
-      aria-orientation={isNarrow ? "horizontal" : "vertical"}
-      aria-controls="panel"
+      aria-label={props.label}
+      aria-orientation={axis === "y" ? "horizontal" : "vertical"}
+      aria-controls={props.controls}
       aria-valuemin={range.least}
       aria-valuemax={range.most}
       aria-valuenow={value}
@@ -47,15 +50,4 @@ export function Divider() {
       onDblClick={() => set(range.usual)}
     />
   );
-}
-
-function useNarrow(): boolean {
-  const [isNarrow, setNarrow] = useState(() => matchMedia(kNarrow).matches);
-  useEffect(() => {
-    const query = matchMedia(kNarrow);
-    const changed = () => setNarrow(query.matches);
-    query.addEventListener("change", changed);
-    return () => query.removeEventListener("change", changed);
-  }, []);
-  return isNarrow;
 }

@@ -12,6 +12,12 @@ const kPaths = {
   light: "M11 8a3 3 0 1 1-6 0a3 3 0 0 1 6 0M8 1v1.5M8 13.5V15M1 8h1.5M13.5 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1",
   dark: "M13 10A6 6 0 1 1 6 3a5 5 0 0 0 7 7z",
   apart: "M1 3h6v10H1zM9 3h6v10H9z",
+  panels: "M1 2.5h14v11H1zM10 2.5v11M10 8h5",
+  more: "M3 8h.01M8 8h.01M13 8h.01",
+  collapse: "M3 10.5L8 5.5l5 5",
+  open: "M3 5.5l5 5l5-5",
+  back: "M13 3H7M7 3v6M7 9L13 3M3 6v7h7",
+  out: "M9 2h5v5M14 2L7 9M12 9v5H2V4h5",
   curve: "M1 11c3-9 4-9 7-3s4 6 7-3",
 } as const;
 

@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
+import { putBack } from "../layout/moves";
 import { useBoard, usePage } from "../ui/context";
 import { kOpaque, paintHeat } from "../field/HeatLayer";
 import type { Board } from "../model/Board";
@@ -159,7 +160,7 @@ function BeliefSection({ robot }: { robot: Robot }) {
                 title="show over time (Sensors)"
                 onClick={() => {
                   session.history.toggle(workName, "effective samples", "");
-                  ui.change({});
+                  ui.change({ layout: putBack(ui.layout, `${workName} effective samples`) });
                 }}
               >
                       <Icon name="curve" />

@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
+import { putBack } from "../layout/moves";
 import { useBoard, usePage } from "../ui/context";
 import { pictureOf } from "../model/decode";
 import type { Feature } from "../model/features";
@@ -91,7 +92,7 @@ function FeatureItem({ robot, feature, now }: { robot: Robot; feature: Feature; 
                       title="show over time"
                       onClick={() => {
                         session.history.toggle(feature.name, of, unit);
-                        ui.change({});
+                        ui.change({ layout: putBack(ui.layout, `${feature.name} ${of}`) });
                       }}
                     >
                       <Icon name="curve" />

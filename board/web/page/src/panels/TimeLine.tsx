@@ -1,6 +1,6 @@
 import { useRef, useState } from "preact/hooks";
 import { useBoard, usePage } from "../ui/context";
-import { plain } from "../link/words";
+import { Seeker } from "../ui/Seeker";
 import { seconds } from "./parts";
 
 /** A record from its beginning to its end, with marks for what has happened. */
@@ -10,20 +10,9 @@ export function TimeLine() {
   const world = board.world!;
   const length = Math.max(0, world.end - world.start);
   const [held, setHeld] = useState<number | null>(null);
-  const isSending = useRef(false);
-  const wanted = useRef<number | null>(null);
+  const seeker = useRef<Seeker | null>(null);
   const at = held ?? Math.min(length, Math.max(0, board.now - world.start));
-  const seek = async (to: number) => {
-    wanted.current = to;
-    if (isSending.current) return;
-    isSending.current = true;
-    while (wanted.current !== null) {
-      const next = wanted.current;
-      wanted.current = null;
-      await session.act(`SEEK time_s=${plain(next / 1e6)}`, "time");
-    }
-    isSending.current = false;
-  };
+  seeker.current ??= new Seeker(session);
   if (!board.can("SEEK") || length === 0) return null;
   return (
     <div class="time-line">
@@ -41,7 +30,7 @@ export function TimeLine() {
           onInput={(event) => {
             const to = Number(event.currentTarget.value);
             setHeld(to);
-            void seek(to);
+            void seeker.current!.goTo(to / 1e6);
           }}
           onChange={() => setHeld(null)}
         />

@@ -4,6 +4,7 @@ import { useBoard, usePage } from "../ui/context";
 import type { Theme } from "../ui/Ui";
 import { scoresOf } from "../model/soccer";
 import { Icon } from "./Icon";
+import { PageMenu } from "./PageMenu";
 import { ErrorNote, Say, seconds } from "./parts";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
@@ -37,6 +38,7 @@ export function TopBar() {
         <i class="dot" aria-hidden="true" />
         {board.link === "open" ? board.role : board.link}
       </span>
+      <PageMenu />
       <button
         title={`colours: ${ui.theme}; next: ${kNext[ui.theme]}`}
         aria-label={`Colours: ${ui.theme}`}

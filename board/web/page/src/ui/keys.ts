@@ -1,6 +1,7 @@
+import { kPanels } from "../layout/Layout";
+import { enlarged } from "../layout/moves";
 import type { Context } from "./context";
 import { isTypedInto } from "./typing";
-import { kPanels } from "./Ui";
 
 /** Keys of the whole page: what they do, for the help and for `installKeys`. */
 export const kKeys: { keys: string; about: string }[] = [
@@ -8,6 +9,7 @@ export const kKeys: { keys: string; about: string }[] = [
   { keys: ".", about: "one cycle, while it is paused" },
   { keys: "n, p", about: "next robot, previous robot" },
   { keys: "1 to 4", about: "panels" },
+  { keys: "x", about: "the last panel over the field, and back" },
   { keys: "+ − 0", about: "larger, smaller, the whole field" },
   { keys: "f", about: "follow the selected robot" },
   { keys: "m", about: "measure" },
@@ -45,7 +47,13 @@ export function installKeys({ session, ui }: Context): void {
     v: () => ui.change({ is3d: !ui.is3d }),
     l: () => ui.change({ isLogOpen: !ui.isLogOpen }),
     "?": () => ui.change({ isHelpOpen: !ui.isHelpOpen }),
-    Escape: () => ui.change({ isHelpOpen: false, drivesByKeys: false, tool: "look", asked: null }),
+    Escape: () => {
+      // What was begun ends first; a panel over the field stays until nothing else is to end.
+      const isBusy = ui.isHelpOpen || ui.drivesByKeys || ui.tool !== "look" || ui.asked !== null;
+      const layout = isBusy ? ui.layout : enlarged(ui.layout, null);
+      ui.change({ isHelpOpen: false, drivesByKeys: false, tool: "look", asked: null, layout });
+    },
+    x: () => ui.change({ layout: enlarged(ui.layout, ui.layout.large === null ? ui.panel : null) }),
   };
   kPanels.forEach((panel, i) => (actions[String(i + 1)] = () => ui.change({ panel })));
   window.addEventListener("keydown", (event) => {

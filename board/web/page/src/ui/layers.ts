@@ -34,3 +34,19 @@ export const kLayers: Record<keyof Layers, { label: string; about: string; on: b
 };
 
 export const kLayerNames = Object.keys(kLayers) as (keyof Layers)[];
+
+/** A layer that the page chooses itself, by what a record holds. */
+const isOfRecord = (name: keyof Layers) => name === "along";
+
+/** The layers that are on, for others to have the same; null: those that usually are. */
+export function sharedLayers(layers: Layers): string[] | null {
+  const names = kLayerNames.filter((name) => !isOfRecord(name));
+  return names.every((name) => layers[name] === kLayers[name].on) ? null : names.filter((name) => layers[name]);
+}
+
+/** Layers as somebody has shared them; names that are unknown say nothing. */
+export function withShared(layers: Layers, names: string[] | null): Layers {
+  const next = { ...layers };
+  for (const name of kLayerNames) if (!isOfRecord(name)) next[name] = names ? names.includes(name) : kLayers[name].on;
+  return next;
+}
