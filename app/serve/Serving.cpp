@@ -83,12 +83,13 @@ class Deadline {
 };
 
 /// Opens the board. If the default port is taken and was not requested, another one is used.
+/// @param isKnown whether clients know the port already
 std::unique_ptr<MessageBoard> openBoard(ServedWorld& world, BoardConfig& config,
-                                        const ServingArguments& arguments) {
+                                        const ServingArguments& arguments, bool isKnown) {
   try {
     return std::make_unique<MessageBoard>(world, config);
   } catch (const std::runtime_error&) {
-    if (arguments.listen) throw;
+    if (arguments.listen || isKnown) throw;
     config.port = 0;
     return std::make_unique<MessageBoard>(world, config);
   }
@@ -117,29 +118,38 @@ ClientRecords::~ClientRecords() {
       note(fmt::format("{}: {} moments", one.file, one.moments));
 }
 
-void serve(ServedWorld& world, const ServingArguments& arguments,
-           std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
-  BoardConfig config;
-  readListen(arguments.listen.value_or(Viewing::kPort), config);
-  config.tokens = readTokens(arguments.tokens);
+Serving::Serving(const ServingArguments& arguments, const WebUploads& uploads)
+    : arguments_(arguments) {
+  readListen(arguments.listen.value_or(Viewing::kPort), config_);
+  config_.tokens = readTokens(arguments.tokens);
   for (const std::string& name : arguments.control)
-    config.control.push_back(name == "all" ? "*" : name);
-  config.speed = arguments.speed;
-  if (arguments.freeRun) config.pace = Pace::kFree;
-  if (arguments.lockstep) config.pace = Pace::kLockstep;
-  config.limits.idle = arguments.idle;
-  config.limits.sessions = arguments.clients;
-  config.limits.sessionsOfAddress = arguments.clientsOfAddress;
+    config_.control.push_back(name == "all" ? "*" : name);
+  config_.speed = arguments.speed;
+  if (arguments.freeRun) config_.pace = Pace::kFree;
+  if (arguments.lockstep) config_.pace = Pace::kLockstep;
+  config_.limits.idle = arguments.idle;
+  config_.limits.sessions = arguments.clients;
+  config_.limits.sessionsOfAddress = arguments.clientsOfAddress;
   allowFiles(arguments.clients);
-  config.log = warn;
-  config.commands = std::move(commands);
-  Viewing viewing(arguments, config);
+  config_.log = warn;
+  viewing_ = std::make_unique<Viewing>(arguments, config_, uploads);
+}
+
+Serving::~Serving() = default;
+
+void Serving::run(ServedWorld& world, std::vector<BoardCommand> commands,
+                  const std::function<bool()>& goesOn) {
+  config_.commands = std::move(commands);
   try {
-    const std::unique_ptr<MessageBoard> opened = openBoard(world, config, arguments);
+    const std::unique_ptr<MessageBoard> opened = openBoard(world, config_, arguments_, isOpen_);
     MessageBoard& board = *opened;
-    fmt::print("listening on {} port {}\n", config.address, board.port());
-    viewing.open(board);
-    flushOutput();
+    if (!isOpen_) {
+      fmt::print("listening on {} port {}\n", config_.address, board.port());
+      viewing_->open(board);
+      flushOutput();
+    }
+    isOpen_ = true;
+    config_.port = board.port();
     const Deadline deadline(board);
     const Rescue rescue([&] { board.abandon("the server ends, a plugin of its world hangs"); });
     board.run([&] { return interruptSignal() == 0 && (!goesOn || goesOn()); });
@@ -148,6 +158,11 @@ void serve(ServedWorld& world, const ServingArguments& arguments,
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+}
+
+void serve(ServedWorld& world, const ServingArguments& arguments,
+           std::vector<BoardCommand> commands, const std::function<bool()>& goesOn) {
+  Serving(arguments).run(world, std::move(commands), goesOn);
 }
 
 }  // namespace ortung::app

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "Rescue.hpp"
 #include "ServingArguments.hpp"
+#include "Viewing.hpp"
 #include "ortung/server/BoardCommand.hpp"
 #include "ortung/server/MessageBoard.hpp"
 #include "ortung/server/Recordings.hpp"
@@ -28,6 +30,28 @@ class ClientRecords {
  private:
   Recordings recordings_;
   Rescue rescue_;
+};
+
+/// A message board at one port, and the page there, for one world after another: whoever has the
+/// page open sees each in turn.
+class Serving {
+ public:
+  /// @param uploads files that the page may send; whoever may control may send them
+  /// @throws UsageError, std::runtime_error
+  explicit Serving(const ServingArguments& arguments, const WebUploads& uploads = {});
+  ~Serving();
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+  /// As serve(); the address is printed the first time.
+  void run(ServedWorld& world, std::vector<BoardCommand> commands = {},
+           const std::function<bool()>& goesOn = {});
+
+ private:
+  ServingArguments arguments_;
+  BoardConfig config_;
+  std::unique_ptr<Viewing> viewing_;
+  bool isOpen_ = false;
 };
 
 /// Serves @p world to clients until a signal comes. Prints its address on stdout. If the world has

@@ -1,39 +1,24 @@
 #include "View.hpp"
 
-#include <utility>
-#include <vector>
+#include <memory>
 
+#include "DroppedFiles.hpp"
 #include "Interrupt.hpp"
-#include "Progress.hpp"
 #include "Serving.hpp"
-#include "ServingArguments.hpp"
-#include "ViewArguments.hpp"
-#include "ViewedRuns.hpp"
-#include "ortung/mcl_served/LocalizationCommands.hpp"
-#include "ortung/mcl_served/PerceivedPlayback.hpp"
-#include "ortung/server/ServedPlayback.hpp"
+#include "ViewedWorld.hpp"
 
 namespace ortung::app {
 
 int runView(const ViewArguments& arguments) {
-  const ScratchFolder scratch;
-  const ViewedRuns runs = prepareRuns(arguments, scratch);
-  Progress progress("reading", arguments.localization.progress);
-  ServedPlayback playback(runs.playback, [&](double done) {
-    progress.update(done);
-    return interruptSignal() == 0;
-  });
+  auto shown = std::make_unique<ViewedWorld>(arguments);
+  DroppedFiles dropped(arguments);
   ServingArguments serving = arguments.serving;
   serving.isViewing = true;
-  std::vector<BoardCommand> commands = playbackCommands(playback);
-  if (!runs.perception) {
-    serve(playback, serving, std::move(commands));
-    return 0;
+  Serving board(serving, dropped.uploads());
+  while (shown) {
+    board.run(shown->world(), shown->commands(), [&] { return !dropped.isReady(); });
+    shown = interruptSignal() == 0 ? dropped.take() : nullptr;
   }
-  PerceivedPlayback perceived(playback, *runs.perception);
-  for (BoardCommand& command : perceptionCommands(perceived))
-    commands.push_back(std::move(command));
-  serve(perceived, serving, std::move(commands));
   return 0;
 }
 

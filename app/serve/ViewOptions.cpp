@@ -16,6 +16,12 @@ void addView(Builder& build) {
       runView);
   addRuns(build, *a);
   addDoor(build, a->serving);
+  const HelpGroup group(build, "Serving and viewing");
+  build
+      .option("--drop-limit", a->dropLimit,
+              "Largest file that is opened when it is dropped on the page [MB]; 0: none is")
+      .within(0, 1000000)
+      .showsDefault();
 }
 
 }  // namespace

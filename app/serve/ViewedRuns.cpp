@@ -15,6 +15,7 @@
 #include "Progress.hpp"
 #include "PublishedRecord.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/FileKind.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/mcl_served/WorldTables.hpp"
 #include "ortung/records/RecordSource.hpp"
@@ -90,10 +91,26 @@ std::vector<ServedFeature> featuresOf(const std::filesystem::path& robotFile) {
   return servedFeatures(container);
 }
 
-/// Parses a source, which may be the path of a record.
+/// Returns the kind of source that reads a file, by its content. A file of no such kind is read as
+/// a record, which says what is wrong with it.
+std::string kindOf(const std::filesystem::path& file) {
+  switch (kindOfFile(file)) {
+    case FileKind::kMcap:
+      return "mcap";
+    case FileKind::kSqlite:
+    case FileKind::kRosBag:
+      return "bag";
+    case FileKind::kCarmenLog:
+      return "carmen";
+    default:
+      return "record";
+  }
+}
+
+/// Parses a source, which may be the path of a record, a bag or a log.
 SourceText sourceTextOf(const std::string& argument) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(argument, error)) return {"record", argument, {}};
+  if (std::filesystem::is_regular_file(argument, error)) return {kindOf(argument), argument, {}};
   try {
     return parseSourceText(argument);
   } catch (const std::invalid_argument& wrong) {

@@ -48,6 +48,26 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   return config;
 }
 
+/// The tokens of all who may control; not those that say nothing of who it is.
+std::vector<std::string> tokensOfControl(const BoardConfig& config) {
+  std::vector<std::string> tokens;
+  for (const BoardToken& one : config.tokens) {
+    const bool mayControl = std::any_of(config.control.begin(), config.control.end(),
+                                        [&](const std::string& name) { return name == one.name; });
+    if (mayControl && one.name != "*" && !one.token.empty()) tokens.push_back(one.token);
+  }
+  return tokens;
+}
+
+/// In a time that does not depend on where they differ.
+bool isSameSecret(std::string_view secret, std::string_view given) {
+  if (secret.size() != given.size()) return false;
+  unsigned different = 0;
+  for (std::size_t i = 0; i < secret.size(); ++i)
+    different |= static_cast<unsigned char>(secret[i]) ^ static_cast<unsigned char>(given[i]);
+  return different == 0;
+}
+
 bool hasDesktop() {
   return ::isatty(STDOUT_FILENO) == 1 &&
          (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr);
@@ -81,12 +101,23 @@ std::filesystem::path pageFolder() {
   return {};
 }
 
-Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config)
-    : arguments_(arguments), address_(config.address), door_(webConfigOf(arguments)) {
-  config.http = [this](const HttpVisitor& visitor) {
-    return door_.take({visitor.socket, visitor.head, visitor.peer, visitor.join});
+Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config, const WebUploads& uploads)
+    : arguments_(arguments), address_(config.address) {
+  if (arguments.isViewing) admitPage(config);
+  WebConfig web = webConfigOf(arguments);
+  web.uploads = uploads;
+  web.uploads.admits = [tokens = tokensOfControl(config)](std::string_view given) {
+    return std::count_if(tokens.begin(), tokens.end(),
+                         [&](const std::string& token) { return isSameSecret(token, given); }) > 0;
   };
-  if (!arguments.isViewing) return;
+  door_ = std::make_unique<WebDoor>(web);
+  config.http = [this](const HttpVisitor& visitor) {
+    return door_->take({visitor.socket, visitor.head, visitor.peer, visitor.join});
+  };
+}
+
+/// Gives the page's own client a token, unless there is one for it, and the right to control.
+void Viewing::admitPage(BoardConfig& config) {
   auto& tokens = config.tokens;
   const auto isOurs = [](const BoardToken& token) { return token.name == kClient; };
   if (std::none_of(tokens.begin(), tokens.end(), isOurs)) {
@@ -102,14 +133,14 @@ void Viewing::open(const MessageBoard& board) {
   const std::string url = fmt::format("http://{}:{}/", hostForBrowsers(address_), board.port());
   std::string key = token_.empty() ? "" : "#token=" + token_;
   if (!arguments_.pageKeys.empty()) key += (key.empty() ? "#" : "&") + arguments_.pageKeys;
-  if (!door_.hasPage())
+  if (!door_->hasPage())
     warn("this program has no viewer's page (board/web/page was not built): clients only");
   fmt::print("view and control: {}{}\n", url, key);
   if (token_.empty())
     note("append #token=... with the token of 'view' in the token file");
   else if (arguments_.tokens.empty())
     fmt::print("view only:        {}\n", url);
-  if (arguments_.opensBrowser && hasDesktop() && door_.hasPage()) showInBrowser(url + key);
+  if (arguments_.opensBrowser && hasDesktop() && door_->hasPage()) showInBrowser(url + key);
 }
 
 }  // namespace ortung::app

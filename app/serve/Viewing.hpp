@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "ServingArguments.hpp"
@@ -24,16 +25,19 @@ class Viewing {
   /// must have its address. If the board has no tokens, other clients are still admitted without
   /// one.
   /// @throws std::runtime_error if the page's files can't be read
-  Viewing(const ServingArguments& arguments, BoardConfig& config);
+  /// @param uploads files that the page's own client, and others that may control, may send
+  Viewing(const ServingArguments& arguments, BoardConfig& config, const WebUploads& uploads);
 
   /// Prints the page's address on stdout, and shows it in a browser if there is a desktop.
   void open(const MessageBoard& board);
 
  private:
+  void admitPage(BoardConfig& config);
+
   ServingArguments arguments_;
   std::string address_;
   std::string token_;
-  WebDoor door_;
+  std::unique_ptr<WebDoor> door_;
 };
 
 }  // namespace ortung::app

@@ -15,6 +15,7 @@ struct ViewArguments {
   std::filesystem::path world;         ///< world whose field is drawn; "": that of the tables
   LocalizationArguments localization;  ///< source is not used; tables "": does not localize
   ServingArguments serving;
+  unsigned dropLimit = 2000;  ///< largest file that the page may send [MB]; 0: takes none
 };
 
 }  // namespace ortung::app

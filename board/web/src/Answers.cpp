@@ -33,15 +33,15 @@ Response make(const Request& request, http::status status, std::string_view type
 
 }  // namespace
 
-Response refusal(const Request& request, http::status status, std::string_view why) {
+Response said(const Request& request, http::status status, std::string_view text) {
   Response response = make(request, status, "text/plain; charset=utf-8");
-  response.body() = std::make_shared<const std::string>(std::string(why) + "\n");
+  response.body() = std::make_shared<const std::string>(std::string(text) + "\n");
   response.prepare_payload();
   return response;
 }
 
 Response farewell(http::status status, std::string_view why) {
-  Response response = refusal(Request(), status, why);
+  Response response = said(Request(), status, why);
   response.keep_alive(false);
   return response;
 }
@@ -50,17 +50,19 @@ namespace {
 
 Response answerWithBody(const Request& request, const Page& page, const WebConfig& config) {
   if (!isOwnHost(view(request[http::field::host]), config.hosts))
-    return refusal(request, http::status::misdirected_request,
-                   "This computer is not known by that name: use its address, or localhost.");
+    return said(request, http::status::misdirected_request,
+                "This computer is not known by that name: use its address, or localhost.");
   if (request.method() != http::verb::head && request.method() != http::verb::get) {
     Response response =
-        refusal(request, http::status::method_not_allowed, "Only GET and HEAD are known here.");
+        said(request, http::status::method_not_allowed, "Only GET and HEAD are known here.");
     response.set(http::field::allow, "GET, HEAD");
     return response;
   }
-  const Page::File* file = page.find(view(request.target()));
-  if (file == nullptr)
-    return refusal(request, http::status::not_found, "There is no such file here.");
+  const std::string_view target = view(request.target());
+  if (config.uploads.begin && target == config.uploads.path)
+    return said(request, http::status::ok, "most=" + std::to_string(config.uploads.most));
+  const Page::File* file = page.find(target);
+  if (file == nullptr) return said(request, http::status::not_found, "There is no such file here.");
   Response response = make(request, http::status::ok, file->type);
   response.body() = file->bytes;
   response.prepare_payload();
@@ -73,6 +75,31 @@ Response answer(const Request& request, const Page& page, const WebConfig& confi
   Response response = answerWithBody(request, page, config);
   if (request.method() == http::verb::head) response.body() = nullptr;  // its length stays
   return response;
+}
+
+bool wantsUpload(const Request& request, const WebConfig& config) {
+  const std::string_view target = view(request.target());
+  return config.uploads.begin && request.method() == http::verb::post &&
+         target.substr(0, target.find('?')) == config.uploads.path;
+}
+
+std::optional<WebReply> uploadRefusal(const Request& request, const WebConfig& config) {
+  const std::string_view host = view(request[http::field::host]);
+  if (!isOwnHost(host, config.hosts))
+    return WebReply{421, "This computer is not known by that name: use its address, or localhost."};
+  if (!isOwnOrigin(view(request[http::field::origin]), host, config.origins))
+    return WebReply{403, "Pages of other origins may not send files."};
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string_view given = view(request[http::field::authorization]);
+  const bool isAdmitted = given.starts_with(kBearer) && config.uploads.admits &&
+                          config.uploads.admits(given.substr(kBearer.size()));
+  if (!isAdmitted)
+    return WebReply{403, "Only operators may send files: the token is missing or wrong."};
+  return std::nullopt;
+}
+
+Response uploadAnswer(const Request& request, const WebReply& reply) {
+  return said(request, http::int_to_status(reply.status), reply.text);
 }
 
 Speaking speakingOf(const Request& request, const WebConfig& config) {

@@ -2,6 +2,7 @@
 
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -17,11 +18,20 @@ using Response = boost::beast::http::response<SharedText>;
 /// What a request that is no WebSocket is answered: a file of the page, or why not.
 Response answer(const Request& request, const Page& page, const WebConfig& config);
 
-/// A refusal in words.
-Response refusal(const Request& request, boost::beast::http::status status, std::string_view why);
+/// Words as an answer.
+Response said(const Request& request, boost::beast::http::status status, std::string_view text);
 
 /// The same as the last answer of a connection, whatever it has asked for.
 Response farewell(boost::beast::http::status status, std::string_view why);
+
+/// Whether a request wants to send a file: it is a POST to where files are taken.
+bool wantsUpload(const Request& request, const WebConfig& config);
+
+/// Why a file is not taken from who sends it; nothing: it is.
+std::optional<WebReply> uploadRefusal(const Request& request, const WebConfig& config);
+
+/// What is said to who has sent a file, or whose file is not taken.
+Response uploadAnswer(const Request& request, const WebReply& reply);
 
 /// A request for a WebSocket: what is to be spoken on it, and under which name; or why not.
 struct Speaking {

@@ -36,6 +36,10 @@ void Visit::enter(Stage stage, double seconds) {
 }
 
 void Visit::read() {
+  if (host_.config.uploads.begin) {
+    readHead();
+    return;
+  }
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(host_.config.limits.head));
   parser_->body_limit(std::uint64_t{0});  // nothing is taken here
@@ -64,13 +68,117 @@ void Visit::receive() {
   }
   const Speaking speaking = speakingOf(request, host_.config);
   if (speaking.protocol == nullptr) {
-    write(refusal(request, speaking.status, speaking.why));
+    write(said(request, speaking.status, speaking.why));
   } else if (host_.speak(stream_, visitor_, request, speaking)) {
     stage_ = Stage::kOver;
     onEnd_();
   } else {
     refuse();
   }
+}
+
+/// Where files are taken, what a request has behind its head is read when that is known.
+void Visit::readHead() {
+  parser_.emplace();
+  parser_->header_limit(static_cast<std::uint32_t>(host_.config.limits.head));
+  parser_->body_limit(host_.config.uploads.most);
+  enter(requests_ == 0 ? Stage::kServed : Stage::kIdle, host_.config.limits.pause);
+  http::async_read_header(
+      stream_, buffer_, *parser_, [self = shared_from_this()](const Error& error, std::size_t) {
+        if (self->stage_ == Stage::kOver) return;
+        if (!error)
+          self->receiveHead();
+        else if (error == http::error::end_of_stream || error == boost::beast::error::timeout)
+          self->close();
+        else if (error == http::error::body_limit)
+          self->write(farewell(http::status::payload_too_large, self->tooLarge()));
+        else
+          self->write(
+              farewell(http::status::bad_request, "This is no request that is understood here."));
+      });
+}
+
+std::string Visit::tooLarge() const {
+  return "A file has at most " + std::to_string(host_.config.uploads.most) + " bytes here.";
+}
+
+void Visit::receiveHead() {
+  if (wantsUpload(parser_->get(), host_.config))
+    beginUpload();
+  else if (parser_->is_done())
+    receive();
+  else
+    write(farewell(http::status::bad_request, "This is no request that is understood here."));
+}
+
+void Visit::beginUpload() {
+  const Request& request = parser_->get();
+  if (const auto refused = uploadRefusal(request, host_.config)) {
+    answerUpload(*refused);
+    return;
+  }
+  WebReply refused{503, "No file can be taken now."};
+  upload_ = host_.config.uploads.begin({request.target().data(), request.target().size()}, refused);
+  if (!upload_) {
+    answerUpload(refused);
+    return;
+  }
+  sending_.emplace(std::move(*parser_));
+  sending_->body_limit(host_.config.uploads.most);
+  piece_ = std::make_unique<std::array<char, 64u << 10>>();
+  sending_->is_done() ? finishUpload() : readPiece();
+}
+
+void Visit::readPiece() {
+  sending_->get().body().data = piece_->data();
+  sending_->get().body().size = piece_->size();
+  enter(Stage::kServed, host_.config.uploads.patience);
+  http::async_read(stream_, buffer_, *sending_,
+                   [self = shared_from_this()](const Error& error, std::size_t) {
+                     if (self->stage_ != Stage::kOver) self->takePiece(error);
+                   });
+}
+
+void Visit::takePiece(const Error& error) {
+  if (error == http::error::body_limit) {
+    answerUpload({413, tooLarge()});
+    return;
+  }
+  if (error && error != http::error::need_buffer) {  // it was cut
+    close();
+    return;
+  }
+  const std::size_t count = piece_->size() - sending_->get().body().size;
+  // Of what is refused the rest is read, too: browsers hear an answer when they have sent all.
+  if (!refused_) refused_ = upload_->take({piece_->data(), count});
+  if (sending_->is_done())
+    finishUpload();
+  else
+    readPiece();
+}
+
+void Visit::finishUpload() {
+  if (refused_) {
+    answerUpload(*refused_);
+    return;
+  }
+  stream_.expires_never();
+  stage_ = Stage::kServed;
+  upload_->finish([self = weak_from_this(), later = host_.later](const WebReply& reply) {
+    if (!later) return;
+    later->run([self, reply] {
+      const auto visit = self.lock();
+      if (visit && visit->stage_ != Stage::kOver) visit->answerUpload(reply);
+    });
+  });
+}
+
+/// The connection ends with it: of a file that is refused more may still come.
+void Visit::answerUpload(const WebReply& reply) {
+  upload_.reset();
+  Response response = uploadAnswer(Request(), reply);
+  response.keep_alive(false);
+  write(std::move(response));
 }
 
 void Visit::refuse() {
@@ -117,6 +225,7 @@ void Visit::drop() {
 void Visit::close() {
   if (std::exchange(stage_, Stage::kOver) == Stage::kOver) return;
   stream_.close();
+  upload_.reset();
   onEnd_();
 }
 

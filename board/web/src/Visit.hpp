@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/buffer_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <chrono>
 #include <functional>
@@ -10,6 +12,7 @@
 #include <string>
 
 #include "Answers.hpp"
+#include "Later.hpp"
 
 namespace ortung::web {
 
@@ -27,6 +30,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
     std::function<bool(boost::beast::tcp_stream& stream, const WebVisitor& visitor,
                        const Request& request, const Speaking& speaking)>
         speak;
+    /// The door's thread; null where no files are taken.
+    std::shared_ptr<Later> later = {};
   };
 
   /// @param onEnd called once
@@ -52,6 +57,14 @@ class Visit : public std::enable_shared_from_this<Visit> {
   enum class Stage { kServed, kIdle, kLeaving, kOver };
   void read();
   void receive();
+  void readHead();
+  void receiveHead();
+  void beginUpload();
+  void readPiece();
+  void takePiece(const boost::beast::error_code& error);
+  void finishUpload();
+  void answerUpload(const WebReply& reply);
+  std::string tooLarge() const;
   void write(Response response);
   void leave();
   void drop();
@@ -63,6 +76,11 @@ class Visit : public std::enable_shared_from_this<Visit> {
   const Host& host_;
   std::function<void()> onEnd_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+  using Piece = boost::beast::http::buffer_body;
+  std::optional<boost::beast::http::request_parser<Piece>> sending_;  ///< of a file
+  std::unique_ptr<WebUpload> upload_;
+  std::optional<WebReply> refused_;  ///< what is said at its end
+  std::unique_ptr<std::array<char, 64u << 10>> piece_;
   Response response_;
   std::size_t requests_ = 0;
   Stage stage_ = Stage::kServed;

@@ -34,10 +34,12 @@ struct WebDoor::Parts {
              [this](boost::beast::tcp_stream& stream, const WebVisitor& visitor,
                     const web::Request& request, const web::Speaking& speaking) {
                return speak(stream, visitor, request, speaking);
-             }},
+             },
+             std::make_shared<web::Later>(io)},
         thread([this] { run(); }) {}
 
   ~Parts() {
+    host.later->end();
     asio::post(io, [this] {
       isEnding = true;
       const auto all = std::exchange(visits, {});
@@ -149,8 +151,8 @@ struct WebDoor::Parts {
 
   const WebConfig config;
   const web::Page page;
-  const web::Visit::Host host;
   asio::io_context io{1};
+  const web::Visit::Host host;
   std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work{
       asio::make_work_guard(io)};
   std::map<std::uint64_t, std::shared_ptr<web::Visit>> visits;

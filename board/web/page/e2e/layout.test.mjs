@@ -106,11 +106,11 @@ describe("the panels of the page", () => {
     await page.reload();
     await isArranged(page, ["left: Robots", "right: Localization Game"]);
     assert.equal(await page.getByText("Estimated pose of").count(), 0, "it is collapsed as before");
-    await page.getByRole("button", { name: "Panels and layout" }).click();
+    await page.getByRole("button", { name: "Panels, layout, files" }).click();
     await page.getByRole("menuitemcheckbox", { name: "Sensors" }).click();
     await isArranged(page, ["left: Robots", "right: Localization Game Sensors"]);
     await page.getByText("What blue1 senses").waitFor();
-    await page.getByRole("button", { name: "Panels and layout" }).click();
+    await page.getByRole("button", { name: "Panels, layout, files" }).click();
     await page.getByRole("menuitem", { name: "Reset layout" }).click();
     await isArranged(page, kUsual);
     assert.equal(await page.evaluate(() => location.hash.includes("layout")), false);
@@ -176,7 +176,7 @@ describe("the panels of the page", () => {
     await order(page, "Robots", "Move left");
     await page.getByText("Layers", { exact: true }).click();
     await page.getByLabel("trails").check();
-    await page.getByRole("button", { name: "Panels and layout" }).click();
+    await page.getByRole("button", { name: "Panels, layout, files" }).click();
     await page.getByRole("menuitem", { name: "Copy a link to this layout" }).click();
     const link = await page.getByLabel("Link to this layout").inputValue();
     assert.ok(!link.includes(program.token), "the link has no token");

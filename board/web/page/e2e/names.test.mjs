@@ -81,7 +81,7 @@ describe("names and texts that want to be more", () => {
       const found = await page.evaluate(() => {
         const rect = (query) => document.querySelector(query).getBoundingClientRect();
         const { scrollWidth, scrollHeight, clientWidth, clientHeight } = document.documentElement;
-        const panel = document.getElementById("panel");
+        const panel = document.querySelector(".panel");
         return {
           isPageWider: scrollWidth > clientWidth || scrollHeight > clientHeight,
           isPanelWider: panel.scrollWidth > panel.clientWidth,

@@ -2,10 +2,11 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { render } from "preact";
 import { App } from "./app/App";
-import { boardAddress, parseAddress } from "./link/address";
+import { boardAddress, fileAddress, parseAddress } from "./link/address";
 import type { Line } from "./link/Connection";
 import { RecordedBoard, RecordedTime, type RecordedRun } from "./link/RecordedBoard";
 import { Demo } from "./model/Demo";
+import { FileOpening } from "./model/FileOpening";
 import { Insight } from "./model/Insight";
 import { Session } from "./model/Session";
 import type { World } from "./model/world";
@@ -29,7 +30,12 @@ const insight = new Insight(session, () => {
   ui.redraw();
   session.board.touch();
 });
-const context: Context = { session, ui, insight };
+const opening = new FileOpening({
+  board: session.board,
+  url: recorded || !location.protocol.startsWith("http") ? null : fileAddress(location),
+  token: () => ui.address.token,
+});
+const context: Context = { session, ui, insight, opening };
 
 const demo = address.demo ? new Demo(session, insight) : null;
 
@@ -46,7 +52,9 @@ const settle = () => {
     session.wish();
   }
   if (board.world !== world) {
+    const isAnother = world !== null;
     world = board.world;
+    if (isAnother) insight.clear();
     // Where no walls are known, the scans of a record show what there is.
     const isUnknown = board.kind === "record" && !board.drawing.walls.length;
     if (isUnknown !== ui.layers.along) ui.change({ layers: { ...ui.layers, along: isUnknown } });

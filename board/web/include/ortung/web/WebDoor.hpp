@@ -10,6 +10,7 @@
 
 #include "ortung/base/Export.hpp"
 #include "ortung/web/WebSpeech.hpp"
+#include "ortung/web/WebUpload.hpp"
 
 namespace ortung {
 
@@ -35,6 +36,7 @@ struct WebConfig {
   std::vector<std::string> hosts;    ///< names of this computer, beside localhost and addresses
   std::vector<std::string> origins;  ///< foreign pages that may connect: "https://..."
   std::vector<WebProtocol> protocols = {boardProtocol()};
+  WebUploads uploads;  ///< files that the page sends; usually none are taken
   WebLimits limits;
   /// Is called with what goes wrong, one line each, on the door's thread; may be empty.
   std::function<void(const std::string&)> log;
@@ -57,7 +59,8 @@ struct WebVisitor {
 ///
 /// A foreign page can't use it: requests must name this computer by an address, as
 /// localhost or by a name of WebConfig::hosts (else DNS could be made to lead a strange page here),
-/// and a WebSocket's Origin must be the page's own or one of WebConfig::origins.
+/// and the Origin of a WebSocket or of a file that is sent must be the page's own or one of
+/// WebConfig::origins.
 ///
 ///     WebDoor door(webConfig);
 ///     boardConfig.http = [&](const HttpVisitor& visitor) {

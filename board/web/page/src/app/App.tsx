@@ -9,6 +9,7 @@ import { TopBar } from "../panels/TopBar";
 import { useBoard, usePage } from "../ui/context";
 import { useNarrow } from "../ui/narrow";
 import { kFieldHeight } from "../ui/sizes";
+import { DropZone, OpeningNote } from "./DropZone";
 import { FieldView } from "./FieldView";
 import { AreaView, EdgeOf, GroupView } from "./Groups";
 import { Large } from "./Large";
@@ -26,6 +27,7 @@ export function App() {
       <LinkNote />
       <TokenNote />
       <LayoutNote />
+      <OpeningNote />
       <main class="work" style={{ "--field": `${ui.fieldHeight}%` }}>
         {!isNarrow && <AreaView key="left" area="left" />}
         {!isNarrow && <EdgeOf key="edge-left" area="left" />}
@@ -44,6 +46,7 @@ export function App() {
       </main>
       <SaidBar />
       {ui.isHelpOpen && <Help />}
+      <DropZone />
     </div>
   );
 }

@@ -24,6 +24,7 @@ export function FieldView() {
   const [problem, setProblem] = useState("");
   const isApart = areApart(board, ui);
   const robots = [...board.robots.values()];
+  useEffect(() => view()?.fit(), [board.worldName]);
   const view = () => [...painters.current][0];
   const stage = (only: number | null) => (
     <Stage only={only} seen={seen.current} painters={painters.current} onProblem={setProblem} />

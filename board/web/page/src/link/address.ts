@@ -42,6 +42,10 @@ export function boardAddress(location: { protocol: string; host: string; pathnam
   return `${scheme}//${location.host}${folder}board`;
 }
 
+/** Where files are sent that are to be opened: beside the page. */
+export const fileAddress = ({ origin, pathname }: { origin: string; pathname: string }): string =>
+  `${origin}${pathname.replace(/[^/]*$/, "")}open`;
+
 /** What is said first. Who has the token steers; others look, under a name that needs none. */
 export function greeting(token: string, role: "viewer" | "operator"): string {
   return `HELLO ortung/1 ${token ? `name=view role=${role} token=${token}` : "name=look role=viewer"}`;

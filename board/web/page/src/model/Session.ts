@@ -11,7 +11,7 @@ import type { Robot } from "./Robot";
 import { takeRobots } from "./roster";
 import { parseGame, parseHappenings, parsePlayerKinds, parsePlaying } from "./soccer";
 import { takeWorld } from "./truth";
-import { parseDrawing, parseWorld } from "./world";
+import { emptyDrawing, parseDrawing, parseWorld } from "./world";
 
 const kWorldPeriod = 0.02;
 const kFeaturePeriod = 0.05;
@@ -198,6 +198,7 @@ export class Session {
     this.worldPeriod = 0;
     board.nextHappening = 0;
     board.happenings = [];
+    this.forgetRecord();
     const world = await this.tryAsk("DESCRIBE world");
     if (world) board.world = parseWorld(world.lines);
     const drawing = await this.tryAsk("DESCRIBE field");
@@ -215,6 +216,16 @@ export class Session {
     await this.poll();
     clearInterval(this.polling);
     this.polling = setInterval(() => void this.poll(), kPoll);
+  }
+
+  /** Another record may be shown now by the same server: of robots and field nothing is sure any more. */
+  private forgetRecord(): void {
+    const { board } = this;
+    if (board.kind !== "record") return;
+    board.robots.clear();
+    board.drawing = emptyDrawing();
+    this.history.whole = null;
+    this.history.clear();
   }
 
   private lost(why: string, againIn: number): void {

@@ -6,9 +6,9 @@ import { titleOf } from "../ui/titles";
 import { Icon } from "./Icon";
 import { Menu, type MenuItem } from "./Menu";
 
-/** Which panels there are: brings back those that were closed. */
+/** What there is to see: brings back panels that were closed, and opens files. */
 export function PageMenu() {
-  const { session, ui } = usePage();
+  const { session, ui, opening } = usePage();
   const { layout } = ui;
   const curves = panelsOf(layout).filter((panel) => curvesOf(panel));
   const panels: MenuItem[] = [...kPanels, ...curves].map((panel, i) => {
@@ -31,12 +31,25 @@ export function PageMenu() {
       ui.change({ note: { text: `The link to this layout, to be copied from here.${who}`, link } });
     }
   };
+  const choose = (isBeside: boolean) => () => {
+    const input = document.createElement("input");
+    input.type = "file";
+    input.onchange = () => void opening.open([...(input.files ?? [])], isBeside);
+    input.click();
+  };
+  const files: MenuItem[] = opening.isPossible && session.board.isOperator
+    ? [
+        { text: "Open a file …", beginsPart: true, do: choose(false) },
+        { text: "Open a file beside this …", do: choose(true) },
+      ]
+    : [];
   const items: MenuItem[] = [
     ...panels,
+    ...files,
     { text: "Copy a link to this layout", beginsPart: true, do: () => void copy() },
     { text: "Reset layout", do: () => ui.resetLayout() },
   ];
-  return <Menu label="Panels and layout" items={items}><Icon name="panels" /></Menu>;
+  return <Menu label="Panels, layout, files" items={items}><Icon name="panels" /></Menu>;
 }
 
 /** What is to be said of the layout, until the user has read it. */

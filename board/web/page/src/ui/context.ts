@@ -1,5 +1,6 @@
 import { createContext } from "preact";
 import { useContext, useEffect, useState } from "preact/hooks";
+import type { FileOpening } from "../model/FileOpening";
 import type { Insight } from "../model/Insight";
 import type { Session } from "../model/Session";
 import type { Ui } from "./Ui";
@@ -8,6 +9,7 @@ export interface Context {
   session: Session;
   ui: Ui;
   insight: Insight;
+  opening: FileOpening;
 }
 
 export const PageContext = createContext<Context | null>(null);

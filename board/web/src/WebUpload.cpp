@@ -1,0 +1,7 @@
+#include "ortung/web/WebUpload.hpp"
+
+namespace ortung {
+
+WebUpload::~WebUpload() = default;
+
+}  // namespace ortung
