@@ -154,7 +154,7 @@ TEST_F(WebUploadTest, TakesAFileWholeAndSaysWhatBecameOfIt) {
   EXPECT_EQ(kept_.bytes, bytes);
   EXPECT_EQ(kept_.target, "/open?name=run.rec");
   EXPECT_EQ(send(request("")).body(), "got 0\n");
-  EXPECT_TRUE(comesTrue([&] { return kept_.open == 0; }));
+  EXPECT_TRUE(comesTrue("no upload is open", [&] { return kept_.open == 0; }));
 }
 
 TEST_F(WebUploadTest, TakesAFileOfWhichNoLengthIsSaid) {
@@ -208,7 +208,7 @@ TEST_F(WebUploadTest, TakesNoMoreThanThereIsRoomFor) {
   const std::string answer = sendBytes(headOf("Transfer-Encoding: chunked") + pieces + "0\r\n\r\n");
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 413 ")) << answer;
   EXPECT_EQ(kept_.whole, 0);
-  EXPECT_TRUE(comesTrue([&] { return kept_.open == 0; }));
+  EXPECT_TRUE(comesTrue("no upload is open", [&] { return kept_.open == 0; }));
 }
 
 TEST_F(WebUploadTest, ReadsOnWhatIsRefusedSoThatBrowsersHearWhy) {
@@ -225,14 +225,14 @@ TEST_F(WebUploadTest, OneIsTakenAtATime) {
   start();
   tcp::socket first = connected();
   http::write(first, request("first"));
-  ASSERT_TRUE(comesTrue([&] { return kept_.whole == 1; }));
+  ASSERT_TRUE(comesTrue("the file is whole", [&] { return kept_.whole == 1; }));
   EXPECT_EQ(send(request("second")).result_int(), 409u);
   {
     const std::lock_guard lock(kept_.mutex);
     kept_.answer({200, "in the end"});
   }
   EXPECT_EQ(answerOn(first).body(), "in the end\n");
-  EXPECT_TRUE(comesTrue([&] { return kept_.open == 0; }));
+  EXPECT_TRUE(comesTrue("no upload is open", [&] { return kept_.open == 0; }));
 }
 
 TEST_F(WebUploadTest, OfACutConnectionNothingIsLeft) {
@@ -240,9 +240,9 @@ TEST_F(WebUploadTest, OfACutConnectionNothingIsLeft) {
   {
     tcp::socket socket = connected();
     asio::write(socket, asio::buffer(headOf("Content-Length: 500000") + std::string(300'000, 'x')));
-    ASSERT_TRUE(comesTrue([&] { return kept_.open == 1; }));
+    ASSERT_TRUE(comesTrue("an upload is open", [&] { return kept_.open == 1; }));
   }
-  EXPECT_TRUE(comesTrue([&] { return kept_.open == 0; }));
+  EXPECT_TRUE(comesTrue("no upload is open", [&] { return kept_.open == 0; }));
   EXPECT_EQ(kept_.whole, 0);
   EXPECT_EQ(send(request("again")).body(), "got 5\n");
 }
@@ -252,7 +252,7 @@ TEST_F(WebUploadTest, WhoSendsNothingMoreIsGivenUp) {
   start();
   const std::string answer = sendBytes(headOf("Content-Length: 10") + "abc");
   EXPECT_EQ(answer, "");
-  EXPECT_TRUE(comesTrue([&] { return kept_.open == 0; }));
+  EXPECT_TRUE(comesTrue("no upload is open", [&] { return kept_.open == 0; }));
 }
 
 TEST_F(WebUploadTest, AnAnswerMayComeWhenTheDoorIsGone) {
@@ -260,7 +260,7 @@ TEST_F(WebUploadTest, AnAnswerMayComeWhenTheDoorIsGone) {
   start();
   tcp::socket socket = connected();
   http::write(socket, request("x"));
-  ASSERT_TRUE(comesTrue([&] { return kept_.whole == 1; }));
+  ASSERT_TRUE(comesTrue("the file is whole", [&] { return kept_.whole == 1; }));
   board_.reset();
   door_.reset();
   EXPECT_EQ(kept_.open, 0);
