@@ -1,5 +1,6 @@
 // What a browser, or who passes for one, says at the board's port: first to the board, then to the
-// web's door. The first byte of the input says in pieces of which size the others come.
+// web's door. The first byte of the input says in pieces of which size the others come, and whether
+// the door takes files.
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -16,6 +17,7 @@ using boost::asio::ip::tcp;
 
 constexpr int kMostSteps = 10'000;            // that one input may cause
 constexpr std::size_t kLongestAnswer = 1000;  // [bytes]
+constexpr std::uint64_t kLargestFile = 300;   // that the door takes [bytes]
 
 /// Lets nobody in.
 class Porter final : public server::Porter {
@@ -30,6 +32,34 @@ class Porter final : public server::Porter {
   bool isGone = false;
 };
 
+/// Counts what comes, and what there is of it.
+class CountedUpload final : public WebUpload {
+ public:
+  explicit CountedUpload(int& open) : open_(open) { fuzz::require(++open_ == 1); }
+  ~CountedUpload() override { --open_; }
+  CountedUpload(const CountedUpload&) = delete;
+  CountedUpload& operator=(const CountedUpload&) = delete;
+  std::optional<WebReply> take(std::string_view bytes) override {
+    fuzz::require(!isWhole_ && !isRefused_);
+    size_ += bytes.size();
+    fuzz::require(size_ <= kLargestFile);
+    isRefused_ = bytes.starts_with("no");
+    if (isRefused_) return WebReply{507, "no room"};
+    return std::nullopt;
+  }
+  void finish(std::function<void(WebReply)> answer) override {
+    fuzz::require(!isWhole_ && !isRefused_);
+    isWhole_ = true;
+    answer({200, "it has " + std::to_string(size_) + " bytes"});
+  }
+
+ private:
+  int& open_;
+  std::uint64_t size_ = 0;
+  bool isWhole_ = false;
+  bool isRefused_ = false;
+};
+
 std::size_t count(std::string_view text, std::string_view word) {
   std::size_t number = 0;
   for (auto at = text.find(word); at != text.npos; at = text.find(word, at + word.size())) ++number;
@@ -39,12 +69,13 @@ std::size_t count(std::string_view text, std::string_view word) {
 /// The port as it is before and behind the door, on one thread.
 class Port {
  public:
-  explicit Port(int socket)
-      : config_(configOf()),
+  Port(int socket, bool takesFiles)
+      : config_(configOf(takesFiles)),
         page_({}, config_.limits.page),
         host_{page_, config_,
               [](boost::beast::tcp_stream&, const WebVisitor&, const web::Request&,
-                 const web::Speaking&) { return false; }} {
+                 const web::Speaking&) { return false; },
+              std::make_shared<web::Later>(io_)} {
     board_.http = [this](const HttpVisitor& visitor) { return take(visitor); };
     tcp::socket accepted(io_);
     accepted.assign(tcp::v4(), socket);
@@ -55,6 +86,7 @@ class Port {
     arrival_->close();
     if (visit_) visit_->close();
     settle();
+    fuzz::require(open_ == 0);
   }
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
@@ -66,9 +98,18 @@ class Port {
   bool isOver() const { return visit_ ? isVisitOver_ : porter_.isGone; }
 
  private:
-  static WebConfig configOf() {
+  WebConfig configOf(bool takesFiles) {
     WebConfig config;
     config.hosts = {"here"};
+    if (!takesFiles) return config;
+    config.uploads.most = kLargestFile;
+    config.uploads.admits = [](std::string_view token) { return token == "abc"; };
+    config.uploads.begin = [this](std::string_view target,
+                                  WebReply&) -> std::unique_ptr<WebUpload> {
+      fuzz::require(target.starts_with("/open"));
+      if (target.ends_with("busy")) return nullptr;
+      return std::make_unique<CountedUpload>(open_);
+    };
     return config;
   }
   bool take(const HttpVisitor& visitor) {
@@ -82,6 +123,7 @@ class Port {
   }
 
   boost::asio::io_context io_;
+  int open_ = 0;  ///< files that are being taken
   BoardConfig board_;
   WebConfig config_;
   web::Page page_;
@@ -100,7 +142,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const std::string_view text(reinterpret_cast<const char*>(bytes) + 1, size - 1);
   const std::size_t piece = std::max<std::size_t>(1 + bytes[0], text.size() / fuzz::kMostPieces);
   fuzz::Pair pair;
-  Port port(pair.take());
+  Port port(pair.take(), (bytes[0] & 1) != 0);
   std::string heard;
   for (std::size_t at = 0; at < text.size(); at += piece) {
     pair.say(text.substr(at, piece));
