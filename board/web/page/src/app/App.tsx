@@ -32,13 +32,15 @@ export function App() {
         {!isNarrow && <AreaView key="left" area="left" />}
         {!isNarrow && <EdgeOf key="edge-left" area="left" />}
         <div class="middle" key="middle">
-          <section class="stage" aria-label="Field">
-            <FieldView />
-            {board.world && board.world.kind === "record" && <TimeLine />}
-          </section>
-          {!isNarrow && <EdgeOf area="bottom" />}
-          {!isNarrow && <AreaView area="bottom" />}
-          {!isNarrow && <Large />}
+          <div class="view">
+            <section class="stage" aria-label="Field">
+              <FieldView />
+            </section>
+            {!isNarrow && <EdgeOf area="bottom" />}
+            {!isNarrow && <AreaView area="bottom" />}
+            {!isNarrow && <Large />}
+          </div>
+          {board.world && board.world.kind === "record" && <TimeLine />}
         </div>
         {!isNarrow && <EdgeOf key="edge-right" area="right" />}
         {!isNarrow && <AreaView key="right" area="right" />}
