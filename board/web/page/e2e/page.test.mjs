@@ -535,7 +535,7 @@ describe("the page of a record that is weighed", () => {
     await page.getByRole("button", { name: "run-2", exact: true }).click();
     await page.getByRole("heading", { name: "Estimated pose of run-2" }).waitFor();
     // It is the same record with the same seed: nothing is between its two localizations.
-    await page.locator(".chart figcaption", { hasText: /from run 0\.00 m/ }).waitFor();
+    await page.locator(".chart figcaption", { hasText: /from run 0\.00/ }).waitFor();
     await checkAccess(page, "side-by-side");
     await page.getByRole("button", { name: "Side by side" }).click();
     await until("there is one field", async () => (await fields.count()) === 0);

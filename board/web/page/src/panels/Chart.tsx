@@ -68,22 +68,22 @@ export function Chart({ series, unit, fills, onOut }: { series: Series[]; unit: 
   }, [series.map(({ key }) => key).join(), unit, fills, isDark, session, whole]);
   return (
     <figure class={fills ? "chart fills" : "chart"} aria-label={`Chart of ${nameOf(series)}`}>
-      <Caption series={series} unit={unit} pointed={pointed} onOut={onOut} />
+      <Caption series={series} unit={unit} digits={fills ? 3 : 2} pointed={pointed} onOut={onOut} />
       <div ref={place} class={whole ? "plot seekable" : "plot"} />
     </figure>
   );
 }
 
 /** What each curve is called, with its value now, or where the pointer is. */
-function Caption({ series, unit, pointed, onOut }: {
-  series: Series[]; unit: string; pointed: number | null; onOut: ChartLook["onOut"];
+function Caption({ series, unit, digits, pointed, onOut }: {
+  series: Series[]; unit: string; digits: number; pointed: number | null; onOut: ChartLook["onOut"];
 }) {
   const { session, ui } = usePage();
   const { whole } = session.history;
   const valueOf = (one: Series) => {
     const known = session.history.series.get(one.key) ?? one;
     const time = pointed ?? (whole ? session.board.now / 1e6 : null);
-    return (time === null ? known.values.at(-1) : valueAt(known, time))?.toFixed(2) ?? "–";
+    return (time === null ? known.values.at(-1) : valueAt(known, time))?.toFixed(digits) ?? "–";
   };
   return (
     <figcaption>

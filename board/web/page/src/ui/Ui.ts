@@ -3,7 +3,7 @@ import { toFragment } from "../link/address";
 import type { Point } from "../model/geometry";
 import type { Expected, Heat } from "../model/maps";
 import type { PanelId } from "../layout/curves";
-import { kPanels, kSizes, placeOf, usualLayout, type Layout, type Panel } from "../layout/Layout";
+import { kPanels, kSizes, placeOf, shownOf, usualLayout, type Layout, type Panel } from "../layout/Layout";
 import { resized, revealed } from "../layout/moves";
 import { LayoutError, readArrangement, writeArrangement, type Arrangement } from "../layout/text";
 import { DrivingKeys } from "./DrivingKeys";
@@ -39,6 +39,8 @@ export class Ui {
   isDark = true;
   /** The panel that was chosen last. */
   panel: PanelId = "robots";
+  /** The same, of those that every page has. */
+  private ownPanel: Panel = "robots";
   layout: Layout = usualLayout();
   /** What is to be said of the layout, and a link that the user may copy. */
   note: { text: string; link?: string } | null = null;
@@ -66,7 +68,7 @@ export class Ui {
     this.load();
     if (address.layout !== null) this.arrange(address.layout);
     if (address.panel !== null && isOwn(address.panel)) {
-      this.panel = address.panel;
+      this.panel = this.ownPanel = address.panel;
       this.layout = revealed(this.layout, this.panel);
     }
     this.follow = address.follow;
@@ -82,7 +84,10 @@ export class Ui {
 
   change(what: Partial<Ui>): void {
     Object.assign(this, what);
-    if (what.panel !== undefined) this.layout = revealed(this.layout, what.panel);
+    if (what.panel !== undefined) {
+      this.layout = revealed(this.layout, what.panel);
+      if (isOwn(what.panel)) this.ownPanel = what.panel;
+    }
     this.frame++;
     if (!this.drivesByKeys) this.drivingKeys.clear();
     this.showTheme();
@@ -111,11 +116,13 @@ export class Ui {
   /** Which tab of the usual group is seen is no layout of one's own: the address names that panel anyway. */
   private usualGroups(): Layout["groups"] {
     const groups = usualLayout().groups;
-    return { ...groups, right: groups.right.map((group) => ({ ...group, shown: Math.max(0, group.panels.indexOf(this.panel)) })) };
+    return { ...groups, right: groups.right.map((group) => ({ ...group, shown: Math.max(0, group.panels.indexOf(this.ownPanel)) })) };
   }
 
   private chosen() {
-    return { follow: this.follow, panel: isOwn(this.panel) && placeOf(this.layout, this.panel) ? this.panel : null };
+    const place = placeOf(this.layout, this.ownPanel);
+    const isSeen = place !== null && shownOf(this.layout.groups[place.area][place.group]!) === this.ownPanel;
+    return { follow: this.follow, panel: isSeen ? this.ownPanel : null };
   }
 
   /** A link to what the page shows. It has no token: whoever follows it looks. */
@@ -169,7 +176,7 @@ export class Ui {
     try {
       const kept = JSON.parse(localStorage.getItem(kStore) ?? "{}") as Partial<Kept>;
       if (kept.theme === "light" || kept.theme === "dark") this.theme = kept.theme;
-      if (kept.panel && isOwn(kept.panel)) this.panel = kept.panel;
+      if (kept.panel && isOwn(kept.panel)) this.panel = this.ownPanel = kept.panel;
       this.isLogOpen = kept.isLogOpen === true;
       this.isOneField = kept.isOneField === true;
       this.fieldHeight = sizeOf(kept.fieldHeight, kFieldHeight);
@@ -186,7 +193,7 @@ export class Ui {
 
   private keep(): void {
     const { theme, layers, isLogOpen, isOneField, fieldHeight } = this;
-    const panel = isOwn(this.panel) ? this.panel : "robots";
+    const panel = this.ownPanel;
     const layout = writeArrangement({ ...kNothing, layout: this.layout });
     try {
       localStorage.setItem(kStore, JSON.stringify({ theme, panel, layers, isLogOpen, isOneField, fieldHeight, layout } satisfies Kept));
