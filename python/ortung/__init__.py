@@ -58,9 +58,9 @@ def _compiled(name):
     try:
         return importlib.import_module(f".{name}", __name__)
     except ImportError as error:
+        from ._needs import needs
         what = {"_learning": "environments", "_sim": "worlds and simulations"}[name]
-        raise ImportError(f"{what} need the libraries of the simulator, on Debian 12: "
-                          f"apt-get install {' '.join(_SIMULATOR_PACKAGES)} ({error})") from error
+        raise ImportError(needs(what, "the libraries of the simulator", _SIMULATOR_PACKAGES, error)) from error
 
 
 def __getattr__(name):

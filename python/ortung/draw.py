@@ -5,8 +5,12 @@ is what savefig() belongs to. Matplotlib is loaded with the first picture.
 """
 import numpy as np
 
+from ._arguments import plainly
+from ._needs import needs
+
 __all__ = ["map", "robot", "run", "world"]
 
+_PALE = 0.05  # share of cells at the pale end of a logarithmic scale, as in the pictures of `ortung show`
 _STATUS_COLOURS = {"tracking": "tab:green", "uncertain": "tab:orange", "lost": "tab:red"}
 
 
@@ -16,7 +20,7 @@ def _axes(axes):
         try:
             from matplotlib import pyplot
         except ImportError as error:
-            raise ImportError(f"pictures need Matplotlib, on Debian: apt-get install python3-matplotlib ({error})") from error
+            raise ImportError(needs("pictures", "Matplotlib", ["python3-matplotlib"], error)) from error
         _, axes = pyplot.subplots(layout="constrained")
     axes.set_aspect("equal")
     axes.set_xlabel("x [m]")
@@ -24,6 +28,7 @@ def _axes(axes):
     return axes
 
 
+@plainly
 def world(world, axes=None):
     """Draws a World, or the file of one: walls, bodies, painted lines and landmarks."""
     from . import World
@@ -54,6 +59,7 @@ def _arrow(axes, pose, length, **style):
                   arrowprops={"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0, **style})
 
 
+@plainly
 def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
     """Draws a Robot at a pose (x, y, heading) [m, rad]: its body, and where each sensor sits and looks.
 
@@ -88,22 +94,41 @@ def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
     return axes
 
 
+def _has_readings(localization):
+    container = localization.container
+    return any(container.stamp(feature) is not None for feature in container.features)
+
+
+@plainly
 def map(localization, features=None, *, log=False, headings=None, pose=None, axes=None):
     """Draws p(s|l) of a Localization's present readings, as its probability_map(), with the samples.
 
-    pose: (x, y, heading) that is marked, e.g. the truth [m, rad]."""
+    The darker, the more probable, as in the pictures of `ortung show`; grey is where no robot can be. log: colours
+    stand for ln p(s|l); the least twentieth of the cells has the palest one. pose: (x, y, heading) that is marked, e.g. the truth [m, rad].
+    The title says so if there is no reading yet: then all poses are equally probable."""
     axes = _axes(axes)
     chart = localization.probability_map(features, headings, log)
-    picture = axes.imshow(chart, origin="lower", extent=localization.extent, cmap="viridis", interpolation="nearest")
-    axes.figure.colorbar(picture, ax=axes, label="ln p(s|l)" if log else "p(s|l)")
+    extent = localization.extent
+    values = chart[np.isfinite(chart)]
+    most = values.max() if values.size else 0.0
+    least = np.quantile(values, _PALE) if log and values.size else 0.0
+    picture = axes.imshow(chart, origin="lower", extent=extent, cmap="YlGnBu", interpolation="nearest", vmin=least,
+                          vmax=most if most > least else least + 1.0)
+    axes.set_facecolor("0.62")  # of cells without a value
+    axes.figure.colorbar(picture, ax=axes, label="ln p(s|l)" if log else "p(s|l)", extend="min" if log else "neither")
     samples = localization.samples
-    axes.plot(samples["x"], samples["y"], ".", color="white", markersize=1.0, alpha=0.5)
+    axes.plot(samples["x"], samples["y"], ".", color="black", markersize=1.0, alpha=0.4)
     if pose is not None:
         axes.plot(pose[0], pose[1], "o", markerfacecolor="none", markeredgecolor="red", markersize=10)
-        _arrow(axes, pose, 0.05 * (localization.extent[1] - localization.extent[0]), color="red")
+        _arrow(axes, pose, 0.05 * (extent[1] - extent[0]), color="red")
+    axes.set_xlim(extent[0], extent[1])
+    axes.set_ylim(extent[2], extent[3])
+    if not _has_readings(localization):
+        axes.set_title("no reading yet: all poses are equally probable")
     return axes
 
 
+@plainly
 def run(run, world=None, axes=None):
     """Draws an EvaluatedRun: the true way, and the estimates in the colour of their status.
 

@@ -13,6 +13,8 @@ import subprocess
 import tempfile
 from typing import Any, Dict, List, Optional, Sequence
 
+from ._needs import needs
+
 __all__ = ["SweepError", "figures", "plan", "run", "run_shard", "table", "table_text"]
 
 
@@ -23,7 +25,8 @@ class SweepError(RuntimeError):
 def _program() -> str:
     program = os.environ.get("ORTUNG_PROGRAM") or shutil.which("ortung")
     if program is None:
-        raise SweepError("the program ortung is not in the PATH, and ORTUNG_PROGRAM does not name it")
+        raise SweepError(needs("sweeps", "the program ortung", ["ortung-sim"],
+                               "it is not in the PATH, and ORTUNG_PROGRAM does not name it"))
     return program
 
 

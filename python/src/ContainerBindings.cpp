@@ -266,7 +266,10 @@ void bindModels(PyContainer& container) {
             raiseFailures(*self.container);
             return p;
           },
-          py::arg("x"), py::arg("y"), py::arg("theta"), "p(s|l) of all readings at a pose.")
+          py::arg("x"), py::arg("y"), py::arg("theta"),
+          "p(s|l) of all readings at a pose, in [0, 1]; 1 for a perfect match. -1 if none can "
+          "weigh, "
+          "wherever the robot is: there is no reading yet, or no feature that was learned.")
       .def("add_sensor", &addSensor, py::arg("feature"), py::arg("sensor"), py::arg("values") = 1,
            "A feature of so many numbers that a Python object knows how to weigh. Poses go to it "
            "as (N, 3): x, y, heading, readings as (values,). It has `probability(reading, poses)`, "

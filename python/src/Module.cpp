@@ -1,4 +1,5 @@
 #include "Bindings.hpp"
+#include "PlainArguments.hpp"
 #include "ortung/base/Parameters.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/run/Localization.hpp"
@@ -23,4 +24,5 @@ PYBIND11_MODULE(_core, module) {
   ortung::python::bindLocalization(module);
   ortung::python::bindRecords(module);
   ortung::python::bindEvaluation(module);
+  ortung::python::speakPlainly(module);
 }

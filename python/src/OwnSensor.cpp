@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "ortung/base/Nearest.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/tables/SensorModel.hpp"
 
@@ -25,6 +26,7 @@ class PythonSensor {
       : feature_(std::move(feature)), sensor_(sensor), count_(count) {
     if (PyType_Check(sensor.ptr()) != 0)
       throw py::type_error(feature_ + ": the sensor is a class, expected an object of it");
+    warnOfMisspelt();
     learns_ = py::hasattr(sensor, "learn");
     readModel();
     if (py::hasattr(sensor, "probability")) return;
@@ -128,6 +130,22 @@ class PythonSensor {
       *out++ = static_cast<double>(poses.theta[i]);
     }
     return table;
+  }
+  /// Warns of an attribute that has nearly the name of one that is asked for and not there: what
+  /// may be left out would be ignored silently.
+  void warnOfMisspelt() const {
+    std::vector<std::string> lacking;
+    for (const char* name : {"sigma", "outliers", "is_angle", "learn", "expected", "probability"})
+      if (!py::hasattr(sensor_, name)) lacking.emplace_back(name);
+    const py::list names = py::module_::import("builtins").attr("dir")(sensor_);
+    for (const py::handle one : names) {
+      const auto name = py::cast<std::string>(one);
+      const std::string meant = name.starts_with('_') ? "" : nearest(name, lacking);
+      if (meant.empty()) continue;
+      const std::string text =
+          feature_ + ": the sensor's '" + name + "' is not used; did you mean '" + meant + "'?";
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+    }
   }
   void readModel() {
     if (py::hasattr(sensor_, "sigma"))

@@ -1,14 +1,18 @@
 // Robots, tables and records.
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "Bindings.hpp"
 #include "Robots.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/Nearest.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/run/OpenSource.hpp"
@@ -85,6 +89,36 @@ py::tuple nextReading(Readings& readings) {
   return py::make_tuple(message.stamp, toText(message.id), copyOf(message.words));
 }
 
+/// Names below a folder of the maps.
+std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The path of a shipped file. @throws FileNotFoundError that says which one is near
+std::filesystem::path needShipped(const std::filesystem::path& kind,
+                                  const std::filesystem::path& file) {
+  std::filesystem::path found = shippedFile(kind, file);
+  std::error_code none;
+  if (found.is_absolute() || std::filesystem::exists(found, none)) return found;
+  const std::filesystem::path maps =
+      shippedFile("robots", "pioneer.toml").parent_path().parent_path();
+  const std::vector<std::string> kinds = namesIn(maps);
+  std::string text;
+  if (std::find(kinds.begin(), kinds.end(), kind.string()) == kinds.end())
+    text = "there are no shipped '" + kind.string() + "'" + didYouMean(kind.string(), kinds);
+  else
+    text = "there is no '" + file.string() + "' among the shipped " + kind.string() +
+           didYouMean(file.string(), namesIn(maps / kind));
+  text += "; looked in " + (maps / kind).string() + " and in the working folder";
+  PyErr_SetString(PyExc_FileNotFoundError, text.c_str());
+  throw py::error_already_set();
+}
+
 void bindTables(py::module_& module) {
   py::class_<TableFile, std::shared_ptr<TableFile>>(module, "Tables",
                                                     "A table file, mapped: arrays are no copies.")
@@ -156,9 +190,9 @@ void bindRobots(py::module_& module) {
   bindTables(module);
   bindReadings(module);
   module.def(
-      "shipped_file", &shippedFile, py::arg("kind"), py::arg("file"),
-      "The path of a map that ships with Ortung, e.g. ('robots', 'pioneer.toml'); a file that "
-      "is there, or that is not among them, as it is.");
+      "shipped_file", &needShipped, py::arg("kind"), py::arg("file"),
+      "The path of a map that ships with Ortung, e.g. ('robots', 'pioneer.toml'); an absolute path "
+      "and a file that is there as they are. FileNotFoundError names the nearest one otherwise.");
   module.def(
       "readings",
       [](const std::string& source, const std::filesystem::path& robot) {

@@ -1,4 +1,5 @@
 #include "Bindings.hpp"
+#include "PlainArguments.hpp"
 
 // Worlds and simulations, which need the libraries of the simulator; people import `ortung`.
 PYBIND11_MODULE(_sim, module) {
@@ -6,4 +7,5 @@ PYBIND11_MODULE(_sim, module) {
   ortung::python::bindWorlds(module);
   ortung::python::bindLearner(module);
   ortung::python::bindSimulations(module);
+  ortung::python::speakPlainly(module);
 }
