@@ -15,7 +15,7 @@ import tempfile
 import tomllib
 
 try:
-    from PIL import Image, ImageDraw, ImageFont
+    from PIL import Image, ImageChops, ImageDraw, ImageFont
 except ImportError:
     sys.exit("picture-of-scene.py: needs Pillow: apt-get install python3-pil")
 
@@ -26,6 +26,7 @@ BALL = "#ff8c00"
 GRASS = "#2f6b3c"  # where lines are painted
 FLOOR = "#e4e7eb"
 PAPER, INK = "#ffffff", "#1d2733"
+COLOURS = 64  # of a GIF; the next one is none
 LEFT, RIGHT, TOP, BELOW, LINE = 62, 16, 34, 50, 26  # room around the field, height of a line of the legend
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
@@ -294,7 +295,16 @@ def palette_of(frame, entries):
     draw = ImageDraw.Draw(large)
     for i, (_, _, colour) in enumerate(entries):
         draw.rectangle([0, 12 * i, large.width // 3, 12 * i + 11], fill=colour)
-    return frame.quantize(palette=large.quantize(128, method=Image.Quantize.MEDIANCUT), dither=Image.Dither.NONE)
+    return frame.quantize(palette=large.quantize(COLOURS, method=Image.Quantize.MEDIANCUT), dither=Image.Dither.NONE)
+
+
+def changes(before, after):
+    """What of a frame differs from the one before, and nothing elsewhere: that is packed to a third."""
+    mask = ImageChops.difference(before, after).point(lambda step: 255 if step else 0, "L")
+    frame = Image.new("P", after.size, COLOURS)
+    frame.putpalette(after.getpalette())
+    frame.paste(after, mask=mask)
+    return frame
 
 
 def robots_of(scene, folder):
@@ -384,11 +394,13 @@ def main():
         for body in moments[at]:
             draw(frame, body)
         small = page(frame.finished(), bounds, f"{title}: {at:5.1f} s", entries)
-        small = small.resize((small.width * 2 // 3, small.height * 2 // 3), Image.LANCZOS)
-        # One palette for all: then a frame holds only what has changed.
+        small = small.resize((small.width * 3 // 5, small.height * 3 // 5), Image.LANCZOS)
+        # One palette for all: then frames can be compared.
         palette = frames[0] if frames else palette_of(small, entries)
         frames.append(small.quantize(palette=palette, dither=Image.Dither.NONE))
-    frames[0].save(f"{args.out}.gif", save_all=True, append_images=frames[1:], duration=100, loop=0)
+    others = [changes(*pair) for pair in zip(frames, frames[1:])]
+    frames[0].save(f"{args.out}.gif", save_all=True, append_images=others, duration=100, loop=0, optimize=False,
+                   transparency=COLOURS, disposal=1)
     print(f"{args.out}.png, {args.out}.gif: {len(frames)} frames")
 
 
