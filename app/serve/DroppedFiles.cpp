@@ -183,6 +183,10 @@ void DroppedFiles::prepare(const std::shared_ptr<ScratchFolder>& folder, const s
     } catch (const std::exception& error) {
       const std::string text = withoutFolder(error.what(), folder->path());
       warn("a dropped file can't be shown: " + text);
+      {
+        const std::lock_guard over(mutex_);
+        nextFolders_.clear();
+      }
       isBusy_ = false;
       answer({422, text});
     }

@@ -87,6 +87,22 @@ describe("the panels of the page", () => {
     await page.close();
   });
 
+  it("are dragged by a finger", async () => {
+    const page = await open("", { hasTouch: true });
+    const from = await tab(page, "Robots").boundingBox();
+    const to = await page.locator(".stage").boundingBox();
+    const debug = await page.context().newCDPSession(page);
+    const touch = (type, x, y) => debug.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x, y, id: 0 }] });
+    const [x, y] = [from.x + from.width / 2, from.y + from.height / 2];
+    await touch("touchStart", x, y);
+    for (const share of [0.3, 0.7, 0.97]) await touch("touchMove", x + share * (to.x - x), y + share * 200);
+    await page.locator(".drop-mark").waitFor();
+    await touch("touchEnd");
+    await isArranged(page, ["left: Robots", "right: Sensors Localization Game"]);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
   it("are moved by keys alone, closed, brought back, and stay so", async () => {
     const page = await open();
     await page.getByRole("button", { name: "Panel Robots" }).focus();
