@@ -52,9 +52,9 @@ async function ofLocalization() {
   await atTime(curves, 18);
   await client.ask("PAUSE");
   for (const page of [curves, maps]) {
-    await page.locator(".panel canvas").nth(12).waitFor();
+    await page.locator(".panel canvas").nth(12).waitFor({ timeout: 120000 });
     // The map of what stands still is that of its last readings.
-    await until("the map is up to date", async () => /^0\.[0-2] s old/.test((await page.locator(".panel").first().getByText(/ s old$/).textContent()) ?? ""));
+    await until("the map is up to date", async () => /^0\.[0-2] s old/.test((await page.locator(".panel").first().getByText(/ s old$/).textContent()) ?? ""), 120);
   }
   await curves.getByText("Over time").evaluate((title) => title.scrollIntoView());
   await save(curves, "viewer-localization.png");
@@ -82,6 +82,14 @@ async function ofRecords() {
   await page.getByRole("slider", { name: "Time of the record" }).waitFor();
   await atTime(page, 11);
   await save(page, "viewer-record.png");
+  const arranged = await pageOf(program, "robot=1&panel=localization", "light");
+  for (const name of ["error", "heading error"]) await arranged.getByRole("button", { name: `Take out ${name}`, exact: true }).click();
+  await arranged.getByRole("button", { name: "Panel Localization" }).click();
+  await arranged.getByRole("menuitem", { name: "Move left" }).click();
+  await arranged.getByRole("tab", { name: "Sensors" }).click();
+  await arranged.locator(".features li").nth(3).waitFor();
+  await atTime(arranged, 14);
+  await save(arranged, "viewer_arranged.png");
   await program.stop();
   rmSync(own, { recursive: true });
 }
