@@ -58,7 +58,7 @@ class Panel:
     title: str
     world: str
     robot: str  # of maps/robots, or the text of a robot file
-    features: list  # whose readings are weighed
+    features: tuple  # whose readings are weighed
     place: tuple  # the robot's pose
     least: float | None = None  # least ln p that is drawn, below that of the best place; None: p itself
     own_heading: bool = False  # whether p is that at the robot's heading, not at the best one
@@ -66,14 +66,14 @@ class Panel:
 
 
 SENSORS = [
-    Panel("lrf: one scan", "f2000", "pioneer_lrf", ["LMS200/LRF/*"], (2.3, -1.2, 0.5), -12),
-    Panel("sonar: a ring of them", "arena", "sonar_ring", ["polaroid/ultrasonic/*"], (1.0, -0.8, 0.5), -12),
-    Panel("landmarks: one distance", "f2000", "pioneer_posts", ["omnivision/camera/post1Distance"], (2.3, -1.2, 0.5)),
+    Panel("lrf: one scan", "f2000", "pioneer_lrf", ("LMS200/LRF/*",), (2.3, -1.2, 0.5), -12),
+    Panel("sonar: a ring of them", "arena", "sonar_ring", ("polaroid/ultrasonic/*",), (1.0, -0.8, 0.5), -12),
+    Panel("landmarks: one distance", "f2000", "pioneer_posts", ("omnivision/camera/post1Distance",), (2.3, -1.2, 0.5)),
     # A bearing fits everywhere at one heading or another.
-    Panel("landmarks: one bearing", "f2000", "pioneer_posts", ["omnivision/camera/post1Bearing"], (2.3, -1.2, 0.5),
+    Panel("landmarks: one bearing", "f2000", "pioneer_posts", ("omnivision/camera/post1Bearing",), (2.3, -1.2, 0.5),
           own_heading=True),
-    Panel("iconic_omnivision: lines", "msl", "msl_omni", ["omnivision/camera/lines"], (4.0, -2.0, 0.5), -12),
-    Panel("iconic_omnivision: goals", "msl", "msl_omni", ["omnivision/camera/goals"], (4.0, -2.0, 0.5)),
+    Panel("iconic_omnivision: lines", "msl", "msl_omni", ("omnivision/camera/lines",), (4.0, -2.0, 0.5), -12),
+    Panel("iconic_omnivision: goals", "msl", "msl_omni", ("omnivision/camera/goals",), (4.0, -2.0, 0.5)),
 ]
 
 WHEELS = """
@@ -106,11 +106,11 @@ range_sigma_m = 0.1
 bearing_sigma_deg = 2
 """
 DERIVED = [
-    Panel("lrf_cylinders: posts", "f2000", SCANNER + CYLINDERS, ["LMS200/LRF/cylinders"], (3.0, -0.5, 0.0), -6),
-    Panel("lrf_iconic: position", "f2000", SCANNER + 'plugin = "lrf_iconic"', ["LMS200/LRF/position"], (3.3, -1.2, 0.5)),
-    Panel("teammate: position", "f2000", WHEELS + 'plugin = "teammate"', ["radio/teammate/position"], (2.3, -1.2, 0.5),
+    Panel("lrf_cylinders: posts", "f2000", SCANNER + CYLINDERS, ("LMS200/LRF/cylinders",), (3.0, -0.5, 0.0), -6),
+    Panel("lrf_iconic: position", "f2000", SCANNER + 'plugin = "lrf_iconic"', ("LMS200/LRF/position",), (3.3, -1.2, 0.5)),
+    Panel("teammate: position", "f2000", WHEELS + 'plugin = "teammate"', ("radio/teammate/position",), (2.3, -1.2, 0.5),
           lookout=(-2.0, 2.0, 0.0)),
-    Panel("compass", "f2000", WHEELS + 'plugin = "compass"\nnoise_sigma_deg = 2', ["compass/compass/north"],
+    Panel("compass", "f2000", WHEELS + 'plugin = "compass"\nnoise_sigma_deg = 2', ("compass/compass/north",),
           (2.3, -1.2, 0.5), own_heading=True),
 ]
 HEADINGS = np.radians(np.arange(-180, 181, 2))
@@ -141,7 +141,7 @@ def chart(panel):
         simulation.add_robot(MAPS / "robots/lookout.toml", start=panel.lookout).play("lookout:of=seen")
     advance(simulation, body, here, 0.5)
     headings = [body.pose[2]] if panel.own_heading else None
-    p = here.probability_map(panel.features, headings, panel.least is not None)
+    p = here.probability_map(list(panel.features), headings, panel.least is not None)
     by_heading = [here.container.probability(*body.pose[:2], heading) for heading in HEADINGS]
     return Chart(p, here.extent, body.pose, np.array(by_heading))
 

@@ -1,4 +1,5 @@
 """test_pictures.py SCRIPT  what scripts/pictures.py draws, against where things stand in the worlds."""
+import functools
 import importlib.util
 import math
 import pathlib
@@ -22,6 +23,7 @@ spec = importlib.util.spec_from_file_location("pictures", SCRIPT)
 pictures = importlib.util.module_from_spec(spec)
 sys.modules["pictures"] = pictures  # dataclasses look their module up
 spec.loader.exec_module(pictures)
+pictures.chart = functools.cache(pictures.chart)
 
 CELL = 0.1  # [m]
 POST_1 = (-6.5, -4.5)  # of maps/fields/f2000.toml
@@ -133,10 +135,11 @@ class Drawn(unittest.TestCase):
 
     def test_the_script_writes_pictures(self):
         with tempfile.TemporaryDirectory() as folder:
-            for what, size in [("robot", (560, 400)), ("derived", (760, 560))]:
-                out = pathlib.Path(folder) / f"{what}.png"
-                subprocess.run([sys.executable, "-B", SCRIPT, what, "--out", out], check=True)
-                with Image.open(out) as picture:
+            robot, derived = pathlib.Path(folder) / "robot.png", pathlib.Path(folder) / "derived.png"
+            subprocess.run([sys.executable, "-B", SCRIPT, "robot", "--out", robot], check=True)
+            pictures.draw_derived(derived)
+            for file, size in [(robot, (560, 400)), (derived, (760, 560))]:
+                with Image.open(file) as picture:
                     self.assertEqual(picture.size, size)
                     self.assertGreater(len(picture.convert("RGB").getcolors(1 << 20)), 20)
 
