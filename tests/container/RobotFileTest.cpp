@@ -82,6 +82,7 @@ TEST(RobotFile, NamesThePluginThatIsMissing) {
                          "the empty search path"),
             std::string::npos)
       << message;
+  EXPECT_TRUE(message.starts_with("r.toml:2: plugin ")) << message;
 }
 
 }  // namespace

@@ -275,6 +275,7 @@ Parameters Parameters::table(const std::string& key) const {
   const Node* node = look(key);
   if (node == nullptr) {
     const Parameters missing(table_->where);
+    missing.table_->line = table_->line;  // errors name where it would be
     keepAsked(key, {missing});
     return missing;
   }

@@ -80,6 +80,19 @@ void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
   }
 }
 
+/// Returns what is wrong with a plugin's name, with the line of the file that has its settings. What
+/// is not from a file stays as it is.
+std::string placed(const std::string& message, const Parameters& settings) {
+  try {
+    settings.fail("plugin", "is not there: " + message);
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    const std::size_t place = settings.where().size();
+    const bool hasLine = text.size() > place + 1 && text[place] == ':' && text[place + 1] != ' ';
+    return hasLine ? text : message;
+  }
+}
+
 /// Makes a plugin; an exception of its constructor gets the plugin's name.
 void* createNamed(const PluginEntry& entry, const Parameters& parameters) {
   const std::string who = std::string("plugin '") + entry.name + "'";
@@ -259,7 +272,7 @@ void* PluginFactory::create(const std::string& interface, const std::string& nam
   if (entry == nullptr) {
     std::string message = missing(interface, name);
     for (const Complaint& complaint : complaints) message += "; not loaded: " + complaint.what;
-    throw PluginError(message);
+    throw PluginError(placed(message, parameters));
   }
   return createNamed(*entry, parameters);
 }
