@@ -6,8 +6,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "Files.hpp"
 #include "ortung/benchmark/GoalMatrix.hpp"
 #include "ortung/benchmark/Ratings.hpp"
+#include "ortung/core/PluginFactory.hpp"
 
 namespace ortung {
 namespace {
@@ -51,6 +53,29 @@ TEST(GoalMatrix, OneThreadTwoAndMergedShardsGiveTheSameBits) {
   EXPECT_THROW(mergeShards(shards), std::invalid_argument);
   shards.push_back(shards.front());
   EXPECT_THROW(mergeShards(shards), std::invalid_argument);
+}
+
+TEST(GoalMatrix, MisspeltShortNamesAreToldWithTheNearestFirst) {
+  GoalEpisodes episodes;
+  const auto complaint = [&](const std::string& keeper, const std::string& striker) {
+    return test::messageOf<PluginError>(
+        [&] { episodes.check(keeperText(keeper), strikerText(striker)); });
+  };
+  const std::string keeper = complaint("blokcing", "shot");
+  EXPECT_NE(keeper.find("there is no plugin 'blokcing'"), keeper.npos) << keeper;
+  EXPECT_TRUE(
+      keeper.ends_with("; did you mean 'blocking'? policies of goalkeepers "
+                       "(goalkeeper:policy=...) are blocking, intercepting, mixed, still, "
+                       "random, pattern"))
+      << keeper;
+  const std::string striker = complaint("still", "dribbel:delay_s=1");
+  EXPECT_NE(
+      striker.find("did you mean 'dribble'? kinds of strikers (striker:kind=...) are dribble"),
+      striker.npos)
+      << striker;
+  const std::string neither = complaint("xyzzyx", "shot");
+  EXPECT_NE(neither.find("are still, random, pattern"), neither.npos) << neither;
+  EXPECT_NE(neither.find("are roll, shot, dribble"), neither.npos) << neither;
 }
 
 // An episode does not depend on what was played before.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "ortung/base/Random.hpp"
+#include "ortung/benchmark/GoalMatrix.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/PlayerControl.hpp"
@@ -85,7 +86,7 @@ struct GoalEpisodes::Parts {
     if (!wish.team.empty() || !wish.name.empty() || wish.start)
       throw ConfigError("player '" + text +
                         "': the benchmark sets team, name and start, so they can't be given");
-    const auto player = factory.make<Player>(wish.plugin, wish.options);
+    const auto player = makeGoalPlayer(factory, wish);
     const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
     if (file.empty())
       throw ConfigError("player '" + text +

@@ -8,8 +8,12 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
+#include "ortung/base/Nearest.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/core/PluginFactory.hpp"
+#include "ortung/sim/PlayerWish.hpp"
 
 namespace ortung {
 namespace {
@@ -139,7 +143,37 @@ std::uint64_t mixed(std::uint64_t word) {  // splitmix64 (Steele et al., 2014)
   return word ^ (word >> 31);
 }
 
+/// Returns the policies or the kinds, whichever has a name near a plugin's, with that one first;
+/// else both.
+std::string shortNamesFor(const std::string& plugin) {
+  std::string all;
+  for (const auto& [what, begin, names] :
+       {std::tuple{"policies of goalkeepers", kKeeper, kPolicies},
+        {"kinds of strikers", kStriker, kKinds}}) {
+    std::vector<std::string> words(names.begin(), names.end());
+    const std::string meant = nearest(plugin, words);
+    if (!meant.empty())
+      std::rotate(words.begin(), std::find(words.begin(), words.end(), meant), words.end());
+    std::string list = std::string(what) + " (" + std::string(begin) + "...) are ";
+    for (const std::string& word : words) list += (&word == &words.front() ? "" : ", ") + word;
+    if (!meant.empty()) return "did you mean '" + meant + "'? " + list;
+    all += (all.empty() ? "" : "; ") + list;
+  }
+  return all;
+}
+
 }  // namespace
+
+std::unique_ptr<Player> makeGoalPlayer(PluginFactory& factory, const PlayerWish& wish) {
+  try {
+    return factory.make<Player>(wish.plugin, wish.options);
+  } catch (const PluginError& error) {
+    const std::string text = error.what();
+    const bool isMissing = text.find("there is no plugin '" + wish.plugin + "'") != text.npos;
+    if (!isMissing) throw;
+    throw PluginError(text + "; " + shortNamesFor(wish.plugin));
+  }
+}
 
 std::span<const std::string_view> goalkeeperPolicies() { return kPolicies; }
 std::span<const std::string_view> strikerKinds() { return kKinds; }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "ortung/benchmark/GoalMatrix.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/robot/RobotFile.hpp"
 
@@ -60,7 +61,7 @@ Stand::Entrant& Stand::entrant(const std::string& text, const char* name) {
   if (!wish.team.empty() || !wish.name.empty() || wish.start)
     throw ConfigError("player '" + text +
                       "': the environment sets team, name and start, so they can't be given");
-  const auto player = factory.make<Player>(wish.plugin, wish.options);
+  const auto player = makeGoalPlayer(factory, wish);
   const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
   if (file.empty())
     throw ConfigError("player '" + text +

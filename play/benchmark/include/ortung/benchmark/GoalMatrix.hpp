@@ -16,6 +16,9 @@
 
 namespace ortung {
 
+class PluginFactory;
+struct PlayerWish;
+
 /// The episodes of a matrix: every keeper plays against every striker in the same situations.
 struct ORTUNG_API GoalMatrixConfig {
   std::vector<std::string> keepers;   ///< keepers as texts for parsePlayer()
@@ -94,6 +97,10 @@ ORTUNG_API std::string keeperText(const std::string& name);
 ORTUNG_API std::string strikerText(const std::string& name);
 /// Returns the short name of such a text, for users.
 ORTUNG_API std::string shortName(const std::string& text);
+/// Makes a keeper or striker.
+/// @throws PluginError if its plugin is not there; it lists the short names, the nearest one first
+/// @throws ConfigError for options that it does not take
+ORTUNG_API std::unique_ptr<Player> makeGoalPlayer(PluginFactory& factory, const PlayerWish& wish);
 /// Returns the same keeper with another option `sees`.
 ORTUNG_API std::string withSight(const std::string& keeper, const std::string& sees);
 
