@@ -101,7 +101,11 @@ bool Scene::isScene(const std::filesystem::path& file) {
 }
 
 Scene Scene::open(const std::filesystem::path& file) {
-  if (isScene(file)) return read(file);
+  const FileKind kind = kindOfFile(file);
+  if (kind == FileKind::kScene) return read(file);
+  if (kind == FileKind::kUnknown && !isGridMap(file))
+    if (const Parameters toml = readToml(file); toml.has("scene"))
+      return read(toml, file.parent_path());
   Scene scene;
   scene.world = file;
   return scene;
