@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "FakeRobots.hpp"
 #include "LocalizedArena.hpp"
 #include "Paths.hpp"
+#include "StandingPioneer.hpp"
 #include "TestClient.hpp"
 #include "ortung/run/FieldMaps.hpp"
 
 namespace ortung::test {
 namespace {
-
-const std::string kField = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
-const std::string kPioneer = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
 
 /// From each its scanner sees walls on two sides: one wall alone looks alike all along.
 std::vector<Pose2> placesOfF2000() {
@@ -27,23 +26,13 @@ class Pioneer {
  public:
   Pioneer() : perceiver_(openRobot(kPioneer)) {
     const auto goOn = [](double) { return true; };
-    perceiver_ = openRobot(kPioneer, *learnedTables(kField)(*perceiver_, goOn));
+    perceiver_ = openRobot(kPioneer, *learnedTables(kF2000)(*perceiver_, goOn));
   }
   std::shared_ptr<const Robot> robot() const { return perceiver_; }
   /// Whatever its sensors see in the first tenth of a second.
   void standAt(const Pose2& pose) {
-    Scene scene;
-    scene.world = kField;
-    SceneRobot robot;
-    robot.file = kPioneer;
-    robot.name = "pioneer";
-    robot.start = pose;
-    scene.robots.push_back(robot);
-    ServedSimulation world(scene, {.noise = false});
-    for (int cycle = 0; cycle < 15; ++cycle) {
-      world.step();
-      perceiver_->container.set(world.readings(1));
-    }
+    test::standAt(pose, 15,
+                  [&](const std::span<Message> readings) { perceiver_->container.set(readings); });
   }
 
  private:

@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <span>
 #include <thread>
 
 #include "FakeRobots.hpp"
 #include "Files.hpp"
 #include "LocalizedArena.hpp"
 #include "Paths.hpp"
+#include "StandingPioneer.hpp"
 #include "TestClient.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/mcl_served/HeatMap.hpp"
@@ -22,8 +24,6 @@
 namespace ortung::test {
 namespace {
 
-const std::string kField = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
-const std::string kPioneer = ORTUNG_SOURCE_DIR "/maps/robots/pioneer.toml";
 const Pose2 kFirst{1.53, -0.72, 0.6};
 const Pose2 kSecond{-4.21, 2.64, -2.1};
 constexpr Timestamp kSecondBegins = 2'000'000;  // [us]
@@ -31,22 +31,13 @@ constexpr Timestamp kSecondBegins = 2'000'000;  // [us]
 /// Writes what a Pioneer without noise senses where it stands for a second, with stamps from
 /// @p begin on.
 void standAt(const Pose2& pose, Timestamp begin, RecordWriter& record) {
-  Scene scene;
-  scene.world = kField;
-  SceneRobot robot;
-  robot.file = kPioneer;
-  robot.name = "pioneer";
-  robot.start = pose;
-  scene.robots.push_back(robot);
-  ServedSimulation world(scene, {.noise = false});
-  for (int cycle = 0; cycle < 100; ++cycle) {
-    world.step();
-    for (Message message : world.readings(1)) {
+  test::standAt(pose, 100, [&](const std::span<Message> readings) {
+    for (Message& message : readings) {
       message.stamp += begin;
       record.write(message);
     }
     record.endMoment();
-  }
+  });
 }
 
 /// It stands at one place from 0 to 1 s, at another from 2 to 3 s; a single reading comes at 8 s.
@@ -114,7 +105,7 @@ bool learnAll(PerceivedPlayback& world) {
 TEST(PerceivedPlayback, OffersMapsAndReasonsButNoLocalization) {
   Recorded recorded;
   ServedPlayback playback(recorded.config());
-  PerceivedPlayback world(playback, {kPioneer, learnedTables(kField)});
+  PerceivedPlayback world(playback, {kPioneer, learnedTables(kF2000)});
   std::vector<std::string> names;
   for (const BoardCommand& command : perceptionCommands(world)) names.push_back(command.name);
   EXPECT_EQ(names, (std::vector<std::string>{"HEATMAP", "WHY"}));
@@ -123,7 +114,7 @@ TEST(PerceivedPlayback, OffersMapsAndReasonsButNoLocalization) {
 TEST(PerceivedPlayback, HasTheMapOfTheMomentWhetherItWasPlayedOrJumpedTo) {
   Recorded recorded;
   ServedPlayback playback(recorded.config());
-  PerceivedPlayback world(playback, {kPioneer, learnedTables(kField)});
+  PerceivedPlayback world(playback, {kPioneer, learnedTables(kF2000)});
   ASSERT_TRUE(learnAll(world));
   Asked client(world);
   world.seek(900'000);
@@ -145,7 +136,7 @@ TEST(PerceivedPlayback, HasTheMapOfTheMomentWhetherItWasPlayedOrJumpedTo) {
 TEST(PerceivedPlayback, TellsWhyWithWhatWasMeasuredThen) {
   Recorded recorded;
   ServedPlayback playback(recorded.config());
-  PerceivedPlayback world(playback, {kPioneer, learnedTables(kField)});
+  PerceivedPlayback world(playback, {kPioneer, learnedTables(kF2000)});
   ASSERT_TRUE(learnAll(world));
   Asked client(world);
   world.seek(kSecondBegins + 900'000);
@@ -175,7 +166,7 @@ TEST(PerceivedPlayback, TellsWhyWithWhatWasMeasuredThen) {
 TEST(PerceivedPlayback, ForgetsReadingsThatAreOld) {
   Recorded recorded;
   ServedPlayback playback(recorded.config());
-  PerceivedPlayback world(playback, {kPioneer, learnedTables(kField)});
+  PerceivedPlayback world(playback, {kPioneer, learnedTables(kF2000)});
   ASSERT_TRUE(learnAll(world));
   Asked client(world);
   world.seek(2'900'000);
@@ -189,7 +180,7 @@ TEST(PerceivedPlayback, LearnsTablesBesideItselfAndSaysHowFarItIs) {
   ServedPlayback playback(recorded.config());
   std::promise<void> isShared;
   std::promise<void> mayGoOn;
-  const TableGiver real = learnedTables(kField);
+  const TableGiver real = learnedTables(kF2000);
   PerceivedPlayback world(playback, {kPioneer, [&](const Robot& robot, const auto& goOn) {
                                        goOn(0.4);
                                        isShared.set_value();
