@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <iostream>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,7 +20,7 @@
 #include "LiveNode.hpp"
 #include "ParamsFile.hpp"
 #include "RosArguments.hpp"
-#include "ortung/base/Angles.hpp"
+#include "StartPose.hpp"
 
 namespace {
 
@@ -60,15 +59,11 @@ std::filesystem::path cacheFolder() {
 
 LocalizationStart startOf(const std::string& text) {
   if (text == "global") return {};
-  LocalizationStart start{LocalizationStart::Kind::kPose};
-  std::istringstream in(text);
-  char comma = 0;
-  char other = 0;
-  double degrees = 0.0;
-  if (!(in >> start.pose.x >> comma >> start.pose.y >> other >> degrees) || comma != ',' ||
-      other != ',' || !in.eof())
+  const auto pose = ortung::ros2::parseStartPose(text);
+  if (!pose)
     throw CLI::ValidationError("--start", "is '" + text + "', expected global or x,y,degrees");
-  start.pose.theta = ortung::wrapAngle(ortung::radians(degrees));
+  LocalizationStart start{LocalizationStart::Kind::kPose};
+  start.pose = *pose;
   return start;
 }
 

@@ -21,8 +21,8 @@
 #include "Participant.hpp"
 #include "RobotNode.hpp"
 #include "RosArguments.hpp"
+#include "StartPose.hpp"
 #include "VelocityCommand.hpp"
-#include "ortung/base/Angles.hpp"
 #include "ortung/client/RobotSession.hpp"
 
 namespace {
@@ -117,16 +117,9 @@ void addNode(CLI::App& app, Arguments& a) {
 }
 
 ortung::Pose2 poseOf(const std::string& text) {
-  std::istringstream in(text);
-  ortung::Pose2 pose;
-  char comma = 0;
-  char other = 0;
-  double degrees = 0.0;
-  if (!(in >> pose.x >> comma >> pose.y >> other >> degrees) || comma != ',' || other != ',' ||
-      !(in >> std::ws).eof())
-    throw std::runtime_error("--start is '" + text + "', expected x,y,degrees");
-  pose.theta = ortung::wrapAngle(ortung::radians(degrees));
-  return pose;
+  const auto pose = ortung::ros2::parseStartPose(text);
+  if (!pose) throw std::runtime_error("--start is '" + text + "', expected x,y,degrees");
+  return *pose;
 }
 
 void setServer(const std::string& text, SessionOptions& session) {
