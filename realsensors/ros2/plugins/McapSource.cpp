@@ -304,12 +304,16 @@ void McapSource::writeWorld(const std::filesystem::path& file) const {
   writeWorldOf(*map_, file);
 }
 
-/// The text of `ortung import mcap --help`, and of `bag`.
+/// The text of `ortung import mcap --help`.
 class McapHelp : public SourceHelp {
  public:
   explicit McapHelp(const Parameters&)
+      : McapHelp("bag of ROS 2 (MCAP, .db3, also compressed), its folder, or a .bag of ROS 1") {}
+
+ protected:
+  explicit McapHelp(const char* path)
       : SourceHelp(
-            "bag of ROS 2 (MCAP, .db3, also compressed), its folder, or a .bag of ROS 1",
+            path,
             {{"scans", "", "all", "topics of sensor_msgs/LaserScan, with commas between them"},
              {"clouds", "", "all, if there are no scans",
               "topics of sensor_msgs/PointCloud2, of lidars that become scanners"},
@@ -339,6 +343,11 @@ class McapHelp : public SourceHelp {
              {"stamps", "", "header", "header: times of measurement; log: of recording"}}) {}
 };
 
+class BagHelp : public McapHelp {
+ public:
+  explicit BagHelp(const Parameters&) : McapHelp("another name of mcap: takes the same files") {}
+};
+
 }  // namespace
 }  // namespace ortung::ros2
 
@@ -346,4 +355,4 @@ class McapHelp : public SourceHelp {
 ORTUNG_PLUGINS("mcap_source", ortung::provide<ortung::Source, ortung::ros2::McapSource>("mcap"),
                ortung::provide<ortung::Source, ortung::ros2::McapSource>("bag"),
                ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("mcap"),
-               ortung::provide<ortung::SourceHelp, ortung::ros2::McapHelp>("bag"));
+               ortung::provide<ortung::SourceHelp, ortung::ros2::BagHelp>("bag"));
