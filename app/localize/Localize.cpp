@@ -11,6 +11,7 @@
 #include "Console.hpp"
 #include "EstimatesText.hpp"
 #include "EvenTimes.hpp"
+#include "LocalizedText.hpp"
 #include "Localizing.hpp"
 #include "Outputs.hpp"
 #include "Progress.hpp"
@@ -146,7 +147,7 @@ class LocalizeRun {
     Progress progress("localizing", arguments_.localization.progress);
     const auto look = [this](const Feeder& feeder) { onMoment(feeder); };
     while (const auto step = nextStep(localization_, arguments_.localization, look)) {
-      ++updates_;
+      count_.add(step->estimate);
       weighed_ = step->estimate.stamp;
       if (!warned_ && localization_.feeder().seconds() > kPatience)
         warned_ = warnWithoutOdometry(localization_, arguments_.localization);
@@ -158,7 +159,7 @@ class LocalizeRun {
   }
   void finish() {
     warnOf(arguments_.localization.source, localization_.source(), localization_.feeder());
-    requireUpdates(updates_, arguments_.localization);
+    requireUpdates(count_.updates(), arguments_.localization);
     if (times_) writeBefore(localization_.feeder().stamp() + 1);
     if (!warned_) warnWithoutOdometry(localization_, arguments_.localization);
     {
@@ -168,9 +169,21 @@ class LocalizeRun {
       if (record_) record_->commit();
     }
     belief_.save();
+    tell();
   }
 
  private:
+  /// Says what was written, and why a run may have no pose that can be relied on.
+  void tell() const {
+    if (!arguments_.out.empty())
+      note(
+          fmt::format("{}: {} poses, {:.1f} s", arguments_.out.string(), poses_, count_.seconds()));
+    if (!arguments_.record.empty())
+      note(fmt::format("{}: all readings, and the results of {} updates",
+                       arguments_.record.string(), count_.updates()));
+    if (!arguments_.truth.empty()) note(arguments_.truth.string() + ": the true poses");
+    if (const std::string why = count_.whyNotTracked(); !why.empty()) note(why);
+  }
   /// Writes the poses that are due. A pose uses the readings up to its time; only of odometry the
   /// next reading is used, too, to interpolate between the two.
   void onMoment(const Feeder& feeder) {
@@ -192,6 +205,7 @@ class LocalizeRun {
     if (weighed_) age = std::max(0.0, toSeconds(estimate.stamp - *weighed_));
     const auto held = rescue_.hold();
     output_.add(estimate, age);
+    ++poses_;
   }
 
   const LocalizeArguments& arguments_;
@@ -203,7 +217,8 @@ class LocalizeRun {
   std::unique_ptr<PublishedRecord> record_;  ///< readings and results, if they are wanted
   std::optional<EvenTimes> times_;           ///< even times; nothing: a pose for each update
   std::optional<Timestamp> weighed_;
-  std::size_t updates_ = 0;
+  UpdateCount count_;
+  std::size_t poses_ = 0;
   bool warned_ = false;
 };
 

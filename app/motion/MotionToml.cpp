@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "TomlText.hpp"
+
 namespace ortung::app {
 namespace {
 
@@ -34,15 +36,6 @@ double leastOf(const std::string& key) {
   if (key == "turn_per_m") return 0.05;
   return key == "way_per_m" || key == "way_per_turn" ? 0.02
                                                      : -std::numeric_limits<double>::infinity();
-}
-
-std::string quotedToml(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "\"";
 }
 
 /// Returns text without line feeds, which would end a comment.

@@ -323,5 +323,38 @@ TEST_F(Localize, ABagIsLocalizedIntoABag) {
                 2, "ortung export mcap: --localize needs --tables", {});
 }
 
+TEST_F(Localize, SaysAtTheEndWhatItWrote) {
+  const Outcome outcome =
+      run({"--out", path("poses.txt"), "--record", path("all.rec"), "--truth", path("truth.txt")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::size_t poses = linesOf(read("poses.txt")).size();
+  EXPECT_NE(outcome.err.find("ortung localize: " + path("poses.txt") + ": " +
+                             std::to_string(poses) + " poses, "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find(path("all.rec") + ": all readings, and the results of " +
+                             std::to_string(poses) + " updates\n"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find(path("truth.txt") + ": "), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("updates long"), std::string::npos) << outcome.err;
+}
+
+// A second after a global start no metre has been driven, so nothing has confirmed the place.
+TEST_F(Localize, SaysWhyAShortRunIsNotTracked) {
+  thin("short.rec", [](double seconds, const std::string&) { return seconds < 1.0; });
+  const Outcome outcome = ortung({"localize", "--source", "record:" + path("short.rec"), "--robot",
+                                  path("robot.toml"), "--tables", path("hall.ortung")});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  const std::size_t updates = linesOf(outcome.out).size();
+  EXPECT_NE(outcome.err.find("ortung localize: the run is " + std::to_string(updates) +
+                             " updates long ("),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("few readings have confirmed the place yet; after a global start"),
+            std::string::npos)
+      << outcome.err;
+}
+
 }  // namespace
 }  // namespace ortung::test
