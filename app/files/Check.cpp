@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "Console.hpp"
+#include "Doubts.hpp"
 #include "Interrupt.hpp"
 #include "Schema.hpp"
+#include "SensorsText.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/FileKind.hpp"
 #include "ortung/base/InputFile.hpp"
@@ -117,7 +119,16 @@ void checkSimulated(Robot& robot) {
              drive->commandHelp(), shape.mass, shape.pieces.size(), shape.manipulators.size());
 }
 
-void checkRobotFile(const fs::path& file) {
+/// Prints what the words of each feature's readings are, on the wire and in records.
+void printWire(const Robot& robot) {
+  for (const auto& feature : robot.container.all()) {
+    fmt::print("  {:<40} {}{}\n", toText(feature->id()), feature->localizes() ? "localizes; " : "",
+               printable(feature->wordsHelp()));
+    fmt::print("  {:<40} format {}\n", "", feature->format().toText());
+  }
+}
+
+void checkRobotFile(const fs::path& file, const CheckArguments& arguments) {
   const std::unique_ptr<Robot> robot = openRobot(file);
   MclConfig::read(robot->config.mcl).check();
   makeMotion(robot->config.motion, robot->factory);
@@ -125,11 +136,8 @@ void checkRobotFile(const fs::path& file) {
              printable(robot->config.name), robot->config.radius, robot->devices.size(),
              robot->container.all().size());
   checkSimulated(*robot);
-  for (const auto& feature : robot->container.all()) {
-    fmt::print("  {:<40} {}{}\n", toText(feature->id()), feature->localizes() ? "localizes; " : "",
-               printable(feature->wordsHelp()));
-    fmt::print("  {:<40} format {}\n", "", feature->format().toText());
-  }
+  if (arguments.wire) return printWire(*robot);
+  fmt::print("{}", describeSensors(*robot));
 }
 
 /// Loads tables as a localization does.
@@ -224,8 +232,8 @@ void checkRecord(const fs::path& file, const CheckArguments& arguments) {
   }
 }
 
-void checkFile(const fs::path& file, const CheckArguments& arguments) {
-  switch (kindOf(file)) {
+void checkKind(const fs::path& file, FileKind kind, const CheckArguments& arguments) {
+  switch (kind) {
     case FileKind::kMapServer:
       note(file.string() + ": is a grid map, taken as a world");
       return checkWorldFile(file, arguments);
@@ -234,16 +242,23 @@ void checkFile(const fs::path& file, const CheckArguments& arguments) {
     case FileKind::kScene:
       return checkSceneFile(file);
     case FileKind::kRobot:
-      return checkRobotFile(file);
+      return checkRobotFile(file, arguments);
     case FileKind::kTables:
     case FileKind::kZip:
       return checkTables(file, arguments);
     case FileKind::kRecord:
       return checkRecord(file, arguments);
     default:
-      throw std::runtime_error(file.string() + ": is " + nameOf(kindOf(file)) +
+      throw std::runtime_error(file.string() + ": is " + nameOf(kind) +
                                ", expected a world, scene, robot file, map, tables or a record");
   }
+}
+
+void checkFile(const fs::path& file, const CheckArguments& arguments) {
+  const FileKind kind = kindOf(file);
+  checkKind(file, kind, arguments);
+  flushOutput();  // so that results and doubts keep their order
+  for (const std::string& doubt : doubtsOf(file, kind)) warn(doubt);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ void addCheck(Builder& build) {
       .option("--schema", a->schema,
               "Print the JSON schema of a kind of file, for editors that complete and check TOML")
       .oneOf({"robot", "world", "scene"});
+  build.flag("--wire", a->wire,
+             "Show the words and the format of each feature's readings in records and on the wire, "
+             "in place of a robot's sensors");
   build.flag("--mend", a->mend, "Cut off the incomplete end of a record whose recorder was killed");
 }
 

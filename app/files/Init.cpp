@@ -10,6 +10,7 @@
 #include "Outputs.hpp"
 #include "SurveyedPlugins.hpp"
 #include "Templates.hpp"
+#include "TomlText.hpp"
 
 namespace ortung::app {
 namespace {
@@ -31,16 +32,12 @@ std::string wordOf(const fs::path& file) {
   return word.empty() ? "mine" : word;
 }
 
-/// A text as a TOML string. @throws UsageError for control characters, which no file name needs
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20)
-      throw UsageError("--map: the name has control characters");
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
+/// A map's name as a TOML string. @throws UsageError for control characters, which no name needs
+std::string quotedName(const std::string& name) {
+  const bool isPlain = std::none_of(name.begin(), name.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (!isPlain) throw UsageError("--map: the name has control characters");
+  return quotedToml(name);
 }
 
 void write(const fs::path& file, const std::string& text, bool force) {
@@ -76,11 +73,11 @@ std::string inlineTable(const KeySurvey& survey) {
 ///   models, since features have names of their own
 std::string sensorText(PluginFactory& factory, const std::string& name, int number) {
   const KeySurvey survey = surveyPlugin(factory, PluginKind::kSensor, name);
-  std::string text = fmt::format("\n[[sensor]]\nplugin = {}\n", quoted(name));
+  std::string text = fmt::format("\n[[sensor]]\nplugin = {}\n", quotedToml(name));
   for (const auto& [key, entry] : survey.keys) {
     if (key == "plugin") continue;
     if (key == "model" && number > 1) {
-      std::string model = entry.question ? exampleOf(*entry.question) : quoted(name);
+      std::string model = entry.question ? exampleOf(*entry.question) : quotedToml(name);
       if (model.size() > 1) model.insert(model.size() - 1, std::to_string(number));
       text += fmt::format("{:<33} # of that name there is one already\n", "model = " + model);
       continue;
@@ -93,6 +90,19 @@ std::string sensorText(PluginFactory& factory, const std::string& name, int numb
                     : keyLine(key, entry);
   }
   return text;
+}
+
+/// Refuses the name of a sensor that is there: whichever library is found first would hide the
+/// other one. @throws UsageError
+void refuseShadow(const std::string& name) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  for (const PluginFactory::Found& found : factory.list())
+    for (const auto& entry : found.entries)
+      if (entry.interface == SensorData::kInterface && entry.name == name)
+        throw UsageError(
+            fmt::format("there is a sensor '{}' already, in {}, and one would hide the "
+                        "other; name it otherwise, as 'my_{}', or use --force",
+                        name, found.file.string(), name));
 }
 
 }  // namespace
@@ -123,7 +133,7 @@ int runInitWorld(const InitWorldArguments& arguments) {
                            ? arguments.map
                            : arguments.map.lexically_relative(folder.empty() ? "." : folder);
   const std::string text =
-      replaced(replaced(templates::kMapWorld, "@NAME@", name), "@MAP@", quoted(map.string()));
+      replaced(replaced(templates::kMapWorld, "@NAME@", name), "@MAP@", quotedName(map.string()));
   write(arguments.out, text, arguments.force);
   return 0;
 }
@@ -135,6 +145,7 @@ int runInitSensor(const InitSensorArguments& arguments) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
       });
   if (!isWord) throw UsageError("name is '" + name + "', expected 1 to 64 of a-z, 0-9, _");
+  if (!arguments.force) refuseShadow(name);
   const fs::path folder = arguments.out.empty() ? fs::path(name) : arguments.out;
   std::error_code error;
   fs::create_directories(folder, error);

@@ -30,7 +30,8 @@ void addInitSensor(Builder& build) {
                                                     runInitSensor);
   build.option("name", a->name, "Name of the plugin: a-z, 0-9, _").required();
   build.option("--out", a->out, "Folder to write; default: NAME");
-  build.flag("--force", a->force, "Overwrite what is there");
+  build.flag("--force", a->force,
+             "Overwrite what is there, and take a name that another sensor has");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "Console.hpp"
 #include "PluginOffer.hpp"
+#include "PluginSentences.hpp"
 #include "SurveyedPlugins.hpp"
 #include "ortung/base/Nearest.hpp"
 #include "ortung/sim_api/Player.hpp"
@@ -117,20 +118,26 @@ std::string joined(const std::set<std::string>& words) {
   return text;
 }
 
-int listKind(const Kind& kind, double timeout) {
-  const auto rows = rowsOf(kind, timeout);
+/// What a row says: of a plugin that says nothing of itself and ships with nobody, its parts.
+std::string rowText(const Kind& kind, const std::string& name, const Row& row) {
+  if (!row.help.empty()) return row.help.front();
+  const std::string_view sentence = sentenceOf(kind.word, name);
+  return sentence.empty() ? joined(row.parts) : std::string(sentence);
+}
+
+int listKind(const Kind& kind, const PluginsArguments& arguments) {
+  const auto rows = rowsOf(kind, arguments.timeout);
   if (rows.empty()) {
     fmt::print("there are no plugins of this kind\n");
     return 0;
   }
   std::size_t width = 0;
   for (const auto& [name, row] : rows) width = std::max(width, name.size());
-  const bool hasHelp = std::any_of(rows.begin(), rows.end(),
-                                   [](const auto& row) { return !row.second.help.empty(); });
   for (const auto& [name, row] : rows) {
-    const std::string what = row.help.empty() ? "" : row.help.front();
-    fmt::print("{:<{}}  {}\n", printable(name), width,
-               printable(hasHelp ? what : joined(row.parts) + "; " + joined(row.libraries)));
+    fmt::print("{:<{}}  {}\n", printable(name), width, printable(rowText(kind, name, row)));
+    if (arguments.paths)
+      fmt::print("{:<{}}  {}; {}\n", "", width, joined(row.parts),
+                 printable(joined(row.libraries)));
   }
   fmt::print("`ortung plugins {} NAME` shows more of one\n", kind.word);
   return 0;
@@ -181,7 +188,7 @@ int runPlugins(const PluginsArguments& arguments) {
   if (!arguments.inside.empty()) describeOffer(arguments.inside, arguments.timeout);
   if (arguments.kind.empty()) return listLibraries(arguments.timeout);
   const Kind& kind = kindNamed(arguments.kind);
-  if (arguments.name.empty()) return listKind(kind, arguments.timeout);
+  if (arguments.name.empty()) return listKind(kind, arguments);
   return describePlugin(kind, arguments.name, arguments.timeout);
 }
 

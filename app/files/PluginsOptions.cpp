@@ -11,6 +11,8 @@ void addPlugins(Builder& build) {
       runPlugins);
   build.option("kind", a->kind, "List plugins of one kind: " + kindsText());
   build.option("name", a->name, "Show what its part of a file may hold, or what its options are");
+  build.flag("--paths", a->paths,
+             "Also show which parts each plugin of a kind has, and the libraries that have them");
   build.option("--timeout", a->timeout, "Longest time to load a library [s]")
       .within(0.1, 3600.0)
       .showsDefault();

@@ -84,6 +84,11 @@ TEST_F(CheckedFigures, OfARobotAreItsFeaturesAndHowItIsSimulated) {
   expectParts(ortung({"check", path("robot.toml")}),
               {"robot 'scout', radius 0.2 m, 3 sensors, 3 features\n",
                "\n  drive 'differential', commands ", "; 10 kg, 1 pieces, 0 manipulators\n",
+               "\n  motion 'odometry'\n", "\n  sensor 'lrf', at x ",
+               "\n    LMS200/LRF/180DegreeScan                 localizes\n",
+               "\n  1 of 3 features localize; "});
+  expectParts(ortung({"check", path("robot.toml"), "--wire"}),
+              {"robot 'scout', radius 0.2 m, 3 sensors, 3 features\n",
                "\n  LMS200/LRF/180DegreeScan                 localizes; ",
                "\n                                           format "});
 }

@@ -113,5 +113,13 @@ TEST_F(Init, ASensorHasItsName) {
   expectRefused(ortung({"init", "sensor", "../x"}), 2, "ortung init sensor: ", {"a-z, 0-9, _"});
 }
 
+TEST_F(Init, ASensorHidesNoOtherUnasked) {
+  expectRefused(ortung({"init", "sensor", "lrf", "--out", path("lrf")}), 2,
+                "ortung init sensor: there is a sensor 'lrf' already", {"my_lrf", "--force"});
+  EXPECT_FALSE(std::filesystem::exists(path("lrf")));
+  EXPECT_EQ(ortung({"init", "sensor", "lrf", "--out", path("lrf"), "--force"}).exitCode, 0);
+  EXPECT_NE(read("lrf/lrf.cpp"), "");
+}
+
 }  // namespace
 }  // namespace ortung::test

@@ -47,6 +47,22 @@ TEST(Plugins, PlayersSayWhatTheyDoAndWhatTheirOptionsAre) {
       << wander;
 }
 
+TEST(Plugins, OfAKindSayWhatTheyAreAndWhereTheyAreOnlyIfAsked) {
+  for (const char* kind : {"sensor", "motion", "drive", "device", "referee"}) {
+    const Outcome outcome = ortung({"plugins", kind});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const char* part : {"SensorData", "MotionModel", "Drive", "Device", "Referee", ".so"})
+      EXPECT_EQ(outcome.out.find(part), std::string::npos) << outcome.out;
+  }
+  EXPECT_NE(ortung({"plugins", "sensor"}).out.find("  distances by a laser"), std::string::npos);
+  const Outcome places = ortung({"plugins", "sensor", "--paths"});
+  EXPECT_NE(places.out.find("Sensor, SensorData; ortung_lrf_data.so, ortung_lrf_sensor.so\n"),
+            std::string::npos)
+      << places.out;
+  const Outcome own = ortung({"plugins", "sensor"}, {"ORTUNG_PLUGIN_PATH=" TEST_ON_LOAD});
+  EXPECT_NE(own.out.find("on_load            SensorData\n"), std::string::npos) << own.out;
+}
+
 TEST(Plugins, OneThatNeverFinishesIsGivenUp) {
   const Outcome outcome =
       ortung({"plugins", "--timeout", "0.2"}, {"ORTUNG_PLUGIN_PATH=" TEST_ON_LOAD "/loops"});

@@ -128,7 +128,7 @@ def what_check_says(folder):
     said = {}
     for kind in ("fields", "robots", "scenes"):
         for file in sorted((folder / kind).glob("*.toml")):
-            code, text, error = ortung("check", file)
+            code, text, error = ortung("check", file, *["--wire"] * (kind == "robots"))
             text = (text if code == 0 else error).replace(str(folder) + "/", "")
             text = re.sub(r"^(  \w[^/ ]*/[^/ ]+/[^/ ]+) +(localizes; )?.*$", r"\1 \2", text, flags=re.MULTILINE)
             said[f"{kind}/{file.name}"] = re.sub(r"^(  drive '\w+'), commands .*; ", r"\1; ", text, flags=re.MULTILINE)
