@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "Paths.hpp"
 #include "Workspace.hpp"
 
 namespace ortung::test {

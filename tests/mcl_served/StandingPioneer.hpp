@@ -4,6 +4,8 @@
 
 #include "ortung/served/ServedSimulation.hpp"
 
+#include "Paths.hpp"
+
 namespace ortung::test {
 
 inline const std::string kF2000 = ORTUNG_SOURCE_DIR "/maps/fields/f2000.toml";
