@@ -1,4 +1,3 @@
-#include "Paths.hpp"
 #include "Program.hpp"
 
 #include <fcntl.h>
@@ -9,6 +8,8 @@
 
 #include <csignal>
 #include <stdexcept>
+
+#include "Paths.hpp"
 
 extern char** environ;
 

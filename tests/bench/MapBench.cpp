@@ -2,10 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../mcl_served/FakeRobots.hpp"
+#include "Paths.hpp"
 #include "ortung/mcl_served/WorldTables.hpp"
 #include "ortung/served/ServedSimulation.hpp"
-
-#include "Paths.hpp"
 
 namespace {
 

@@ -3,10 +3,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/robot/NetworkRobot.hpp"
-
-#include "Paths.hpp"
 
 namespace {
 

@@ -2,9 +2,8 @@
 
 #include <string>
 
-#include "ortung/served/ServedSimulation.hpp"
-
 #include "Paths.hpp"
+#include "ortung/served/ServedSimulation.hpp"
 
 namespace ortung::test {
 

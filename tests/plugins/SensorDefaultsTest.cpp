@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "Paths.hpp"
 #include "ortung/robot/TomlFile.hpp"
 #include "sensors/compass/CompassSettings.hpp"
 #include "sensors/ground_truth/GroundTruthSettings.hpp"
@@ -19,8 +20,6 @@
 #include "sensors/lrf_iconic/LrfIconicSettings.hpp"
 #include "sensors/odometry/OdometrySettings.hpp"
 #include "sensors/sonar/SonarSettings.hpp"
-
-#include "Paths.hpp"
 
 namespace ortung {
 namespace {

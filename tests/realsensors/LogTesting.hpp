@@ -66,6 +66,5 @@ std::filesystem::path sharedData(const std::string& name);
 // NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared has none
 #define ORTUNG_NEED_DATA(variable, name)                                    \
   const std::filesystem::path variable = ortung::testing::sharedData(name); \
-  if (variable.empty())                                                     \
-  GTEST_SKIP() << "real log " << name << " is not here: ../shared/data"
+  if (variable.empty()) GTEST_SKIP() << "real log " << name << " is not here: ../shared/data"
 // NOLINTEND(bugprone-macro-parentheses)

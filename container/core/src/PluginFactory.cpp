@@ -80,8 +80,8 @@ void checkInfo(const std::filesystem::path& file, const PluginInfo& info) {
   }
 }
 
-/// Returns what is wrong with a plugin's name, with the line of the file that has its settings. What
-/// is not from a file stays as it is.
+/// Returns what is wrong with a plugin's name, with the line of the file that has its settings.
+/// What is not from a file stays as it is.
 std::string placed(const std::string& message, const Parameters& settings) {
   try {
     settings.fail("plugin", "is not there: " + message);

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "Paths.hpp"
 #include "ortung/formats/PlacesData.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/RunDigest.hpp"
 #include "ortung/sim/SceneRun.hpp"
-
-#include "Paths.hpp"
 
 namespace ortung {
 namespace {
