@@ -5,7 +5,9 @@ import { fixed, make } from "./svg";
 /** What stands still: floor, lines, walls, goals, landmarks. In metres of the field. */
 export function drawGround(group: SVGGElement, world: World, drawing: Drawing): void {
   group.replaceChildren();
-  if (!drawing.lines.length && !drawing.walls.length && !drawing.floor) {
+  // Of a record without a world the bounds are those of the way, and no edge that stands somewhere.
+  const isPlace = world.kind !== "record" || drawing.landmarks.length > 0;
+  if (isPlace && !drawing.lines.length && !drawing.walls.length && !drawing.floor) {
     make("rect", { ...box(world), class: "border" }, group);
   }
   for (const line of drawing.lines) {
