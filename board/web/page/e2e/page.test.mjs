@@ -559,6 +559,7 @@ describe("the page of a record that is weighed", () => {
     const page = await openPage(browser, `${program.url}&panel=game`);
     await page.getByRole("img", { name: /^bare at / }).waitFor();
     await until("the whole way is drawn", async () => /^M.*L/.test((await page.locator(".way").getAttribute("d")) ?? ""));
+    assert.equal(await page.locator(".border").count(), 0, "there is no field whose edge could be drawn");
     await page.getByText("Layers", { exact: true }).click();
     await until("scans are along it", () => page.getByLabel("scans along it").isChecked());
     await page.getByRole("rowheader", { name: "odometry/odometry/pose" }).waitFor();
