@@ -5,9 +5,15 @@ function(ortung_docs_site)
   if(ORTUNG_DOCS)
     set(all ALL)
   endif()
+  if(TARGET ortung_python)
+    set(package --python ${PROJECT_BINARY_DIR}/lib/python)
+  endif()
   add_custom_target(docs-site ${all}
     COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/docs/site/build.py ${PROJECT_BINARY_DIR}/docs-site
-            --program $<TARGET_FILE:ortung> --version ${PROJECT_VERSION}
+            --program $<TARGET_FILE:ortung> --version ${PROJECT_VERSION} ${package}
     VERBATIM)
   add_dependencies(docs-site ortung ortung_commands)
+  if(TARGET ortung_python)
+    add_dependencies(docs-site ortung_python ortung_python_learning ortung_python_sim)
+  endif()
 endfunction()

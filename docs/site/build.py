@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""build.py OUT --program ORTUNG --version VERSION  builds the site: OUT/html, from the pages of the repository and what the program
-and the headers say of themselves. Any warning of Sphinx is an error. Ends with 77 if Sphinx or what it needs is not here.
+"""build.py OUT --program ORTUNG --version VERSION  builds the site: OUT/html, from the pages of the repository and what the program,
+the Python package and the headers say of themselves. Any warning of Sphinx is an error. Ends with 77 if Sphinx or what it needs is
+not here.
 
-  --quick  leaves the C++ API out
+  --python FOLDER  where the package is, for this interpreter; without it, its page has signatures alone
+  --quick          leaves the C++ API out
 """
 import argparse
 import hashlib
@@ -51,17 +53,16 @@ def digest(*told):
     return found.hexdigest()
 
 
-def make_pages(out, described, all_keys, xml):
+def make_pages(out, made, xml):
     """Writes all sources of the site below out.
-    @param all_keys the page of all keys
+    @param made pages that are made of what the program and the package say, by their names in reference/
     @param xml the folder of what doxygen has found; None: without the C++ API"""
     pages = sources.write(ROOT, out)
     place = out / "reference"
     (place / "cpp").mkdir(parents=True, exist_ok=True)
-    (place / "commands.md").write_text(commands.page(described))
-    (place / "keys.md").write_text(all_keys)
+    for name, text in made.items():
+        (place / name).write_text(text)
     (place / "plugins.md").write_text(plugins([page for page in pages if page.startswith("plugins/")]))
-    (place / "python.rst").write_text(python_api.page(ROOT))
     if xml:
         cpp_api.write(ROOT, xml, out)
     else:
@@ -91,6 +92,7 @@ def main():
     parser.add_argument("out")
     parser.add_argument("--program", required=True)
     parser.add_argument("--version", required=True)
+    parser.add_argument("--python")
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
     if packages := missing():
@@ -100,11 +102,12 @@ def main():
     pages, html = out / "pages", out / "html"
     described = subprocess.run([options.program, "--describe"], check=True, capture_output=True, text=True).stdout
     try:
-        all_keys = keys.page(ROOT, options.program)
+        made = {"commands.md": commands.page(described), "keys.md": keys.page(ROOT, options.program),
+                "python.rst": python_api.page(ROOT, options.python)}
     except sources.SiteError as error:
         print(error)
         return 1
-    made_of = f"{options.version} {options.quick} {digest(described, all_keys)}"
+    made_of = f"{options.version} {options.quick} {digest(*made.values())}"
     if (out / "made-of").exists() and (out / "made-of").read_text() == made_of:
         print("the site is up to date")
         return 0
@@ -113,7 +116,7 @@ def main():
         shutil.rmtree(folder, ignore_errors=True)
     xml = None if options.quick else cpp_api.read(ROOT, out / "doxygen")
     try:
-        make_pages(pages, described, all_keys, xml)
+        make_pages(pages, made, xml)
     except sources.SiteError as error:
         print(error)
         return 1
