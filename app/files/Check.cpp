@@ -276,6 +276,7 @@ int runCheck(const CheckArguments& arguments) {
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& error) {
+      if (isReaderGone(error)) throw;
       fail(error.what());
       ++bad;
     }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "FakeRoom.hpp"
 #include "SurfaceFit.hpp"
@@ -62,6 +63,35 @@ TEST(SurfaceFit, SaysNothingOfAHeadingWhereNoSurfaceIsNear) {
   const Slope slope = seen(1.0).slopeAt({-1.0, 0.0, 0.0});
   EXPECT_EQ(slope.blurRadians, 0.0);
   for (const double value : slope.information) EXPECT_EQ(value, 0.0);
+}
+
+// Noise moves ends to the far side of a thin wall, and a pose that is off by its thickness moves
+// all of them there. No beam gets there, so the wall's near side is what they show.
+TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
+  constexpr double kNear = 1.0, kFar = 1.15, kNoise = 0.04;
+  const FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+  auto field = std::make_shared<SurfaceField>();
+  field->start(region, 0.05, 0.1);
+  for (double y = -1.9; y <= 1.9; y += 0.003)
+    for (const double x : {kNear, kFar}) field->mark(x, y);
+  field->finish();
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  SurfaceFit fit(field, Pose2{}, SensorModel{.sigma = kNoise});
+  constexpr int kBeams = 181;
+  for (int k = 0; k < kBeams; ++k) {
+    const double bearing = (k - kBeams / 2) * 0.008;
+    fit.add(kNear / std::cos(bearing) + noise(random), bearing);
+  }
+  for (const double start : {0.0, 0.07, 0.15, -0.15}) {
+    double x = start;
+    for (int step = 0; step < 20; ++step) {
+      const Slope slope = fit.slopeAt({x, 0.0, 0.0});
+      ASSERT_GT(slope.information[0], 0.0);
+      x += slope.pull[0] / slope.information[0];
+    }
+    EXPECT_NEAR(x, 0.0, 4.0 * kNoise / std::sqrt(kBeams)) << "from " << start;
+  }
 }
 
 TEST(SurfaceFit, OfNothingSaysNothing) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "TableSlope.hpp"
 
 namespace ortung {
 namespace {
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Least sine between a beam and a line. A grazed line is less exact than its slant predicts, since
 /// ends lie at other heights.
 constexpr double kLeastSlant = 0.15;
@@ -17,6 +19,51 @@ constexpr double kSupposed = 10.0;
 constexpr double kMostAlike = 0.95;
 constexpr int kScatterSteps = 4;
 constexpr double kLeastScatter = 0.01;  ///< least scatter, as a share of the model's variance
+
+constexpr double kShortest = 1e-6;  ///< least length of a beam by which is divided [m]
+constexpr double kStep = 1.0;       ///< distance between places where a beam is followed [cells]
+constexpr double kGrazes = 0.2;     ///< least sine between a beam and a line that it crosses
+/// Greatest distance between where a beam crosses a line and the mean of its cell's ends [cells].
+constexpr double kWithin = 1.0;
+
+/// A beam in the field frame, from a sensor to where it ended.
+struct Beam {
+  double x;  ///< of its sensor [m]
+  double y;
+  double c;  ///< its direction
+  double s;
+  double range;  ///< [m]
+};
+
+/// Returns where a beam crosses a surface's line, as a range [m]; NaN if it does not.
+double crossing(const Surface& surface, const Beam& beam, double cell) {
+  const double nx = static_cast<double>(surface.normalX);
+  const double ny = static_cast<double>(surface.normalY);
+  const double dx = static_cast<double>(surface.x) - beam.x;
+  const double dy = static_cast<double>(surface.y) - beam.y;
+  const double slant = nx * beam.c + ny * beam.s;
+  if (surface.along >= 0.0F || std::abs(slant) < kGrazes) return kNaN;
+  const double range = (nx * dx + ny * dy) / slant;
+  const double off = std::hypot(range * beam.c - dx, range * beam.s - dy);
+  return off < kWithin * cell ? range : kNaN;
+}
+
+/// Returns the surface that a beam shows, or null if none is near its end. This is the nearest one
+/// but where the beam would have to cross another one before: noise moves ends through thin walls,
+/// and the far side of a wall is no place where a beam ends.
+const Surface* shownBy(const SurfaceField& surfaces, const Beam& beam) {
+  const Surface* found = surfaces.near(beam.x + beam.range * beam.c, beam.y + beam.range * beam.s);
+  if (found == nullptr) return nullptr;
+  const double cell = surfaces.grid().cell;
+  for (int k = 1; k <= SurfaceField::kReach; ++k) {
+    const double at = beam.range - k * kStep * cell;
+    if (at <= 0.0) break;
+    const Surface* before = surfaces.near(beam.x + at * beam.c, beam.y + at * beam.s);
+    if (before == nullptr) break;  // nothing is near
+    if (before != found && crossing(*before, beam, cell) < beam.range) found = before;
+  }
+  return found;
+}
 
 /// One residual, in standard deviations of the model.
 struct Residual {
@@ -87,7 +134,11 @@ Slope SurfaceFit::slopeAt(const Pose2& robot) const {
     const double dy = s * end.x + c * end.y;
     const double x = robot.x + dx;
     const double y = robot.y + dy;
-    const Surface* surface = surfaces_->near(x, y);
+    const double bx = x - sensor.x;
+    const double by = y - sensor.y;
+    const double length = std::max(end.range, kShortest);
+    const Surface* surface =
+        shownBy(*surfaces_, {sensor.x, sensor.y, bx / length, by / length, end.range});
     if (surface == nullptr) {
       follows = false;
       continue;
@@ -103,8 +154,7 @@ Slope SurfaceFit::slopeAt(const Pose2& robot) const {
     const auto ny = static_cast<double>(surface->normalY);
     const auto across = static_cast<double>(surface->across);
     if (surface->along < 0.0F) {
-      const double slant =
-          std::max(kLeastSlant, std::abs(nx * (x - sensor.x) + ny * (y - sensor.y)) / end.range);
+      const double slant = std::max(kLeastSlant, std::abs(nx * bx + ny * by) / length);
       take(nx, ny, sigma * sigma * slant * slant + across * across);
       follows = true;
     } else {
