@@ -21,7 +21,7 @@ constexpr int kScatterSteps = 4;
 constexpr double kLeastScatter = 0.01;  ///< least scatter, as a share of the model's variance
 
 constexpr double kShortest = 1e-6;  ///< least length of a beam by which is divided [m]
-constexpr double kStep = 1.0;       ///< distance between places where a beam is followed [cells]
+constexpr double kStep = 2.0;       ///< distance between places where a beam is followed [cells]
 constexpr double kGrazes = 0.2;     ///< least sine between a beam and a line that it crosses
 /// Greatest distance between where a beam crosses a line and the mean of its cell's ends [cells].
 constexpr double kWithin = 1.0;
@@ -55,8 +55,8 @@ const Surface* shownBy(const SurfaceField& surfaces, const Beam& beam) {
   const Surface* found = surfaces.near(beam.x + beam.range * beam.c, beam.y + beam.range * beam.s);
   if (found == nullptr) return nullptr;
   const double cell = surfaces.grid().cell;
-  for (int k = 1; k <= SurfaceField::kReach; ++k) {
-    const double at = beam.range - k * kStep * cell;
+  for (double back = kStep; back <= SurfaceField::kReach; back += kStep) {
+    const double at = beam.range - back * cell;
     if (at <= 0.0) break;
     const Surface* before = surfaces.near(beam.x + at * beam.c, beam.y + at * beam.s);
     if (before == nullptr) break;  // nothing is near
