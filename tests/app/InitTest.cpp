@@ -40,6 +40,22 @@ TEST_F(Init, TheDefaultsThatItShowsAreThose) {
   EXPECT_EQ(check.exitCode, 0) << check.err;
 }
 
+TEST_F(Init, WhatItSaysOfMotionIsWhatTheModelSays) {
+  ASSERT_EQ(ortung({"init", "robot", "--out", path("r.toml")}).exitCode, 0);
+  const std::string model = ortung({"plugins", "motion", "odometry"}).out;
+  const std::string robot = read("r.toml");
+  const std::string table =
+      robot.substr(robot.find("[motion]"), robot.find("[drive]") - robot.find("[motion]"));
+  const std::regex line("\n#([a-z_]+) = ([0-9.]+) ");
+  int count = 0;
+  for (std::sregex_iterator at(table.begin(), table.end(), line), end; at != end; ++at, ++count)
+    EXPECT_TRUE(std::regex_search(
+        model, std::regex("(^|\n)" + at->str(1) + " [^\n]*default: " + at->str(2) + "\n")))
+        << at->str() << " but\n"
+        << model;
+  EXPECT_EQ(count, 4) << table;
+}
+
 TEST_F(Init, EverySensorsKeysCanBeUncommented) {
   // Not lrf_cylinders, which wants the name of a scanner that the robot has.
   for (const char* sensor :
