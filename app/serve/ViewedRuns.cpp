@@ -29,8 +29,8 @@
 namespace ortung::app {
 namespace {
 
-/// Returns a name that the protocol allows for a robot.
-std::string nameOf(const std::string& text, std::size_t number) {
+/// Returns a name that the protocol allows for a robot, and that no other run has.
+std::string nameOf(const std::string& text, const std::vector<ServedPlayback::Run>& others) {
   constexpr std::size_t kLongest = 28;
   std::string name = std::filesystem::path(text).stem().string().substr(0, kLongest);
   std::replace_if(
@@ -40,7 +40,13 @@ std::string nameOf(const std::string& text, std::size_t number) {
       },
       '_');
   if (name.empty()) name = "run";
-  return number == 0 ? name : fmt::format("{}-{}", name, number + 1);
+  const auto isTaken = [&](const std::string& one) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const ServedPlayback::Run& run) { return run.name == one; });
+  };
+  std::string own = name;
+  for (int number = 2; isTaken(own); ++number) own = fmt::format("{}-{}", name, number);
+  return own;
 }
 
 /// A record of the readings of a source and of the estimates of MCL, which have the time at which
@@ -221,7 +227,7 @@ ViewedRuns prepareRuns(const ViewArguments& given, const ScratchFolder& scratch)
     const SourceText source = sourceTextOf(arguments.sources[i]);
     const std::filesystem::path file = scratch.path() / fmt::format("run{}.rec", i);
     ServedPlayback::Run run;
-    run.name = nameOf(source.path, i);
+    run.name = nameOf(source.path, config.runs);
     config.name += (i == 0 ? "" : ", ") + std::filesystem::path(source.path).filename().string();
     if (!localizes) {
       run.record = recordOf(source, arguments, file);

@@ -67,7 +67,7 @@ TEST_F(DroppedFilesTest, ARecordIsReadyToBeShownAloneOrBesideOthers) {
   EXPECT_EQ(send(uploads, "/open?name=other.rec&beside=1", kRecord).status, 200u);
   const auto both = files.take();
   ASSERT_EQ(both->world().residents().size(), 2u);
-  EXPECT_EQ(both->world().residents().back().name, "other-2");
+  EXPECT_EQ(both->world().residents().back().name, "other");
 }
 
 TEST_F(DroppedFilesTest, SaysWhatIsNoRecordAndKeepsNothingOfIt) {

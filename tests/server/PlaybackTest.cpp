@@ -9,6 +9,7 @@
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/formats/TalkData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/server/ServedPlayback.hpp"
 
@@ -145,7 +146,43 @@ TEST(Playback, MarksWhatHappened) {
     marks.push_back(std::to_string(mark.stamp / 100'000) + " " + mark.text);
   EXPECT_EQ(marks,
             (std::vector<std::string>{"10 a: tracking", "30 a: goal for blue", "60 a: carried away",
-                                      "65 a: lost", "80 a: tracking"}));
+                                      "65 a: lost: readings fit", "80 a: tracking"}));
+}
+
+// A filter that wavers, and small corrections, are no events; being uncertain for a while is, with
+// its reason.
+TEST(Playback, MarksHowLongAFilterIsUncertainAndWhy) {
+  const TemporaryFolder folder;
+  RecordWriter record(folder / "run.rec", "0123456789abcdef");
+  TrackData::Reading told;
+  const auto write = [&](double seconds, TrackStatus status, TrackReason reason) {
+    told.status = status;
+    told.reason = reason;
+    record.write(TrackData::message(fromSeconds(seconds), told));
+  };
+  write(0.0, TrackStatus::kUncertain, TrackReason::kSpread);
+  write(5.0, TrackStatus::kTracking, TrackReason::kFits);
+  write(6.0, TrackStatus::kUncertain, TrackReason::kRival);
+  write(6.9, TrackStatus::kUncertain, TrackReason::kRival);
+  told.relocalizations = 1;
+  told.relocalization = Relocalization::kReadings;
+  write(7.0, TrackStatus::kTracking, TrackReason::kFits);
+  write(8.0, TrackStatus::kUncertain, TrackReason::kOdometry);
+  for (const double seconds : {9.0, 9.5, 11.0})
+    write(seconds, TrackStatus::kUncertain, TrackReason::kOdometry);
+  told.relocalizations = 2;
+  told.relocalization = Relocalization::kOtherPlace;
+  write(12.0, TrackStatus::kTracking, TrackReason::kFits);
+  record.commit();
+  ServedPlayback::Config config;
+  config.runs = {{folder / "run.rec", "a"}};
+  const ServedPlayback world(config);
+  std::vector<std::string> marks;
+  for (const ServedPlayback::Mark& mark : world.marks())
+    marks.push_back(std::to_string(mark.stamp / 1'000'000) + " " + mark.text);
+  EXPECT_EQ(marks, (std::vector<std::string>{
+                       "5 a: tracking", "9 a: uncertain: readings contradict odometry",
+                       "12 a: relocalized: readings fit another place better", "12 a: tracking"}));
 }
 
 TEST(Playback, ChangesNothingThatHasHappened) {

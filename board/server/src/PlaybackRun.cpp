@@ -16,7 +16,6 @@
 #include "ortung/formats/ProtectionData.hpp"
 #include "ortung/formats/SamplesData.hpp"
 #include "ortung/formats/TalkData.hpp"
-#include "ortung/formats/TrackData.hpp"
 #include "ortung/formats/WorkData.hpp"
 
 namespace ortung::server {
@@ -31,10 +30,11 @@ constexpr std::uint64_t kBetweenProgress = 4096;  // readings
 // least once.
 constexpr Timestamp kBefore = 3'000'000;  // [us]
 // Robots do not drive faster than that: a faster one was carried.
-constexpr double kFastest = 10.0;  // [m/s]
-constexpr double kNoJump = 0.3;    // [m]
-constexpr double kMargin = 1.0;    // around true poses and estimates [m]
-constexpr double kInSight = 5.0;   // around poses of odometry, which no field is known for [m]
+constexpr Timestamp kWavers = 1'000'000;  ///< shorter than this, being uncertain is no event [us]
+constexpr double kFastest = 10.0;         // [m/s]
+constexpr double kNoJump = 0.3;           // [m]
+constexpr double kMargin = 1.0;           // around true poses and estimates [m]
+constexpr double kInSight = 5.0;  // around poses of odometry, which no field is known for [m]
 const SensorId kEstimate{"mcl", "LOCALIZATION", "pose"};
 const SensorId kOdometry{"odometry", "odometry", "pose"};
 
@@ -159,14 +159,32 @@ void PlaybackRun::noteTrack(const Message& message) {
     return;
   }
   const TrackData::Reading& told = track.reading();
-  if (relocalizations_ && told.relocalizations != *relocalizations_)
+  // An hour has hundreds of corrections by readings, most of them of centimetres.
+  if (relocalizations_ && told.relocalizations != *relocalizations_ &&
+      told.relocalization != Relocalization::kReadings)
     mark(message.stamp, std::string("relocalized: ") + nameOf(told.relocalization));
   relocalizations_ = told.relocalizations;
-  const TrackStatus now = told.status;
-  if (now == status_ || now == TrackStatus::kUncertain) return;  // it may waver between them
+  noteStatus(message.stamp, told);
+}
+
+void PlaybackRun::noteStatus(Timestamp stamp, const TrackData::Reading& told) {
+  const std::string why = std::string(nameOf(told.status)) + ": " + nameOf(told.reason);
+  if (told.status == TrackStatus::kUncertain) {
+    if (!uncertainSince_) uncertainSince_ = stamp;
+    if (!status_ || isMarkedUncertain_ || stamp - *uncertainSince_ < kWavers) return;
+    mark(stamp, why);
+    isMarkedUncertain_ = true;
+    return;
+  }
+  uncertainSince_.reset();
+  const bool wasUncertain = std::exchange(isMarkedUncertain_, false);
+  if (told.status == status_ && !wasUncertain) return;
   // A run that has just begun is not lost.
-  if (now == TrackStatus::kTracking || status_) mark(message.stamp, nameOf(now));
-  status_ = now;
+  if (told.status == TrackStatus::kTracking)
+    mark(stamp, nameOf(told.status));
+  else if (status_)
+    mark(stamp, why);
+  status_ = told.status;
 }
 
 void PlaybackRun::noteTruth(const Message& message) {

@@ -10,7 +10,7 @@
 
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/SensorContainer.hpp"
-#include "ortung/formats/TrackStatus.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/records/RecordSource.hpp"
 #include "ortung/server/ServedPlayback.hpp"
 
@@ -51,6 +51,7 @@ class PlaybackRun {
   void note(const Message& message);
   void notePose(const Message& message);
   void noteTrack(const Message& message);
+  void noteStatus(Timestamp stamp, const TrackData::Reading& told);
   void noteTruth(const Message& message);
   void noteTalk(const Message& message);
   void mark(Timestamp stamp, const std::string& text);
@@ -78,7 +79,9 @@ class PlaybackRun {
 
   // while it is scanned
   std::map<std::string, std::string> formats_;  ///< that the record's notes tell, by feature
-  std::optional<TrackStatus> status_;
+  std::optional<TrackStatus> status_;           ///< the last one that was not uncertain
+  std::optional<Timestamp> uncertainSince_;
+  bool isMarkedUncertain_ = false;
   std::optional<std::uint32_t> relocalizations_;
   std::optional<std::pair<Timestamp, Pose2>> lastTruth_;
 };

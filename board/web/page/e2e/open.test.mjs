@@ -57,7 +57,7 @@ describe("a file that is dropped on the page of a record", () => {
     await page.getByText("What second holds").waitFor();
     await drop(page, [at("first.rec")], 0.75);
     await page.getByRole("region", { name: /^Field of / }).nth(1).waitFor();
-    await named(page, "first-2").waitFor();
+    await named(page, "first").waitFor();
     await page.locator(".link", { hasText: "operator" }).waitFor();
     await page.screenshot({ path: join(out, "dropped.png") });
     // A file of ROS is one, too; and by the menu.

@@ -235,23 +235,29 @@ function Option({ name, unit, text, value, set }: {
   );
 }
 
+/** More events are a list that nobody reads. */
+const kShown = 60;
+
 function Events() {
   const { board } = usePage().session;
   const { happenings } = board;
   const begin = board.world?.start ?? 0;
   if (!happenings.length) return <p class="hint">Nothing yet.</p>;
   return (
-    <ol class="events" reversed>
-      {happenings.slice(-60).reverse().map(({ number, stamp, what, text }) => (
-        <li key={number}>
-          {board.can("SEEK") ? (
-            <Say line={`SEEK time_s=${plain(Math.max(0, stamp - begin) / 1e6)}`} at="time">{seconds(stamp)}</Say>
-          ) : (
-            <time>{seconds(stamp)}</time>
-          )}{" "}
-          <b>{what}</b> {text}
-        </li>
-      ))}
-    </ol>
+    <>
+      {happenings.length > kShown && <p class="hint">the latest {kShown} of {happenings.length}</p>}
+      <ol class="events" reversed>
+        {happenings.slice(-kShown).reverse().map(({ number, stamp, what, text }) => (
+          <li key={number}>
+            {board.can("SEEK") ? (
+              <Say line={`SEEK time_s=${plain(Math.max(0, stamp - begin) / 1e6)}`} at="time">{seconds(stamp)}</Say>
+            ) : (
+              <time>{seconds(stamp)}</time>
+            )}{" "}
+            <b>{what}</b> {text}
+          </li>
+        ))}
+      </ol>
+    </>
   );
 }
