@@ -43,8 +43,8 @@ TEST_F(ExportedPage, RobotsAreCalledLikeTheirFilesAsTheProtocolAllows) {
   const Json page = told();
   ASSERT_EQ(page["robots"].size(), 3u);
   EXPECT_EQ(page["robots"][0]["name"], "run");
-  EXPECT_EQ(page["robots"][1]["name"], "my__log__-2");
-  EXPECT_EQ(page["robots"][2]["name"], "run-3");
+  EXPECT_EQ(page["robots"][1]["name"], "my__log__");
+  EXPECT_EQ(page["robots"][2]["name"], "run-2");
   EXPECT_EQ(page["end_us"], 2'500'000) << "times begin at zero";
   EXPECT_NE(read("page.html").find("<title>run.rec, my _log_!.rec, run.rec</title>"),
             std::string::npos);
