@@ -165,9 +165,7 @@ int runSweepTable(const SweepTableArguments& arguments) {
   outputs.writes("--html", arguments.html, OutputKind::kSweepPage);
   SweepStore store(arguments.dir, sweep);
   store.look();
-  const SweepTable table =
-      tableOf(store, sweep, keys,
-              arguments.figures.empty() ? usualFigures(sweep.command()) : arguments.figures);
+  const SweepTable table = tableOf(store, sweep, keys, arguments.figures);
   outputs.write(arguments.csv, toCsv(table));
   if (!arguments.json.empty()) outputs.write(arguments.json, allFigures(store, sweep));
   outputs.write(arguments.html, toHtml(table, arguments.dir.filename().string()));

@@ -42,7 +42,8 @@ void addTable(Builder& build) {
   build.option("--by", a->by, "Keys that are kept; default: all but seed").splitsAt(',');
   build
       .option("--figures", a->figures,
-              "Figures as in the JSON, e.g. lost_share,at_corrections.nees_mean")
+              "Figures as in the JSON, e.g. lost_share,at_corrections.nees_mean; of many runs and "
+              "cases (--runs, --kidnap, --wake-ups) summary.0.right.share,summary.0.after_s.p50")
       .splitsAt(',');
   build.option("--csv", a->csv, "Also write the table as CSV, with standard errors");
   build.option("--json", a->json, "Also write all figures of each task");

@@ -8,6 +8,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+
+#include "Console.hpp"
+#include "SweepFigures.hpp"
 
 namespace ortung::app {
 namespace {
@@ -15,27 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Returns the number at a path like "at_corrections.nees_mean", or NaN. A list's entries are
-/// numbered from 0; "cells.0.scoring.value".
-double figureIn(const Json& json, const std::string& path) {
-  const Json* at = &json;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    const std::string word = path.substr(begin, end - begin);
-    if (at->is_object() && at->contains(word)) {
-      at = &(*at)[word];
-    } else if (at->is_array() && !word.empty() && word.size() < 7 &&
-               word.find_first_not_of("0123456789") == word.npos && std::stoul(word) < at->size()) {
-      at = &(*at)[std::stoul(word)];
-    } else {
-      return kNan;
-    }
-    begin = end + 1;
-  }
-  if (at->is_boolean()) return at->get<bool>() ? 1.0 : 0.0;
-  return at->is_number() ? at->get<double>() : kNan;
-}
 
 /// Sums up one figure.
 class Summing {
@@ -84,20 +67,83 @@ std::string inMarkdown(const std::string& text) {
   return out.empty() ? "-" : out;
 }
 
+/// Figures of finished tasks as they are come across.
+class Present {
+ public:
+  explicit Present(std::vector<std::string> figures)
+      : figures_(std::move(figures)), areThere_(figures_.size(), false) {}
+  /// Returns the figures of a task, NaN for those that are not known or not there.
+  std::vector<double> of(const Json& json) {
+    std::vector<double> values;
+    for (std::size_t f = 0; f < figures_.size(); ++f) {
+      const std::optional<double> value = figureAt(json, figures_[f]);
+      areThere_[f] = areThere_[f] || value.has_value();
+      values.push_back(value.value_or(kNan));
+    }
+    // All tasks of a sweep have nearly the same ones.
+    if (tasks_++ < kTasksAsked) {
+      for (const std::string& path : figuresIn(json, kMostPaths))
+        if (known_.insert(path).second) paths_.push_back(path);
+    }
+    return values;
+  }
+  const std::vector<bool>& areThere() const { return areThere_; }
+  /// @throws UsageError for a figure that none of the tasks has
+  void check() const {
+    for (std::size_t f = 0; f < figures_.size() && tasks_ > 0; ++f)
+      if (!areThere_[f]) throw UsageError("--figures: " + noFigure(figures_[f], paths_));
+  }
+
+ private:
+  static constexpr std::size_t kTasksAsked = 20;
+  static constexpr std::size_t kMostPaths = 1000;
+  std::vector<std::string> figures_;
+  std::vector<bool> areThere_;
+  std::vector<std::string> paths_;
+  std::set<std::string> known_;
+  std::size_t tasks_ = 0;
+};
+
+/// Returns the figures that a command's tables have unless others are wanted: of one run each, or
+/// of many runs and cases.
+std::vector<std::string> usualFigures(const std::string& command) {
+  if (command == "eval")
+    return {"converged_after_s",
+            "position_median_m",
+            "position_rmse_m",
+            "heading_rmse_deg",
+            "lost_share",
+            "tracking_share",
+            "nees_mean",
+            "summary.0.right.share",
+            "summary.0.converged.share",
+            "summary.0.after_s.p50",
+            "summary.0.position_m.p50",
+            "summary.0.lost_share"};
+  return {"cells.0.scoring.value"};
+}
+
+/// Leaves out the figures that no task has; if no task is done, all stay.
+void keepOnly(SweepTable& table, const std::vector<bool>& areThere) {
+  if (std::find(areThere.begin(), areThere.end(), true) == areThere.end()) return;
+  for (std::size_t f = areThere.size(); f-- > 0;) {
+    if (areThere[f]) continue;
+    const auto at = static_cast<std::ptrdiff_t>(f);
+    table.figures.erase(table.figures.begin() + at);
+    for (SweepTable::Row& row : table.rows) row.cells.erase(row.cells.begin() + at);
+  }
+}
+
 std::string csvNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 }  // namespace
 
-std::vector<std::string> usualFigures(const std::string& command) {
-  if (command == "eval")
-    return {"converged_after_s", "position_median_m", "position_rmse_m", "heading_rmse_deg",
-            "lost_share",        "tracking_share",    "nees_mean"};
-  return {"cells.0.scoring.value"};
-}
-
 SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::string> keys,
                    std::vector<std::string> figures) {
-  SweepTable table{std::move(keys), std::move(figures), {}, {}};
+  const bool areUsual = figures.empty();
+  SweepTable table{
+      std::move(keys), areUsual ? usualFigures(sweep.command()) : std::move(figures), {}, {}};
+  Present present(table.figures);
   std::vector<std::size_t> kept;
   for (const std::string& key : table.keys)
     kept.push_back(static_cast<std::size_t>(
@@ -118,13 +164,15 @@ SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::s
     }
     ++row.row.done;
     const Json json = Json::parse(store.figuresOf(task));
-    for (std::size_t f = 0; f < table.figures.size(); ++f)
-      row.sums[f].add(figureIn(json, table.figures[f]));
+    const std::vector<double> found = present.of(json);
+    for (std::size_t f = 0; f < found.size(); ++f) row.sums[f].add(found[f]);
   }
+  if (!areUsual) present.check();
   for (Adding& row : rows) {
     for (const Summing& sum : row.sums) row.row.cells.push_back(sum.cell());
     table.rows.push_back(std::move(row.row));
   }
+  if (areUsual) keepOnly(table, present.areThere());
   return table;
 }
 

@@ -29,11 +29,10 @@ struct SweepTable {
   std::vector<std::string> missing;  ///< names of tasks without a result
 };
 
-/// Returns the figures that a command's tables have unless others are wanted.
-std::vector<std::string> usualFigures(const std::string& command);
-
 /// Makes the table of what is there; stale results do not count.
 /// @param keys keys that are kept, of sweep.keys()
+/// @param figures paths of figures; none: those of the usual ones that there are
+/// @throws UsageError for a figure that no finished task has, unless none is finished
 SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::string> keys,
                    std::vector<std::string> figures);
 

@@ -202,6 +202,41 @@ TEST_F(Sweep, AveragesAndWritesPages) {
   expectRefused(run("all", {"--task", "x"}), 2, "ortung sweep run: --task is 'x'", {"no task"});
 }
 
+// A slip of the pen must not look like figures that are not known.
+TEST_F(Sweep, FiguresThatNoTaskHasAreRefusedWithTheNearest) {
+  ASSERT_EQ(run("all", {"--task", "n=100,seed=1"}).exitCode, 0);
+  const auto tableOf = [this](const std::string& figure) {
+    return sweep({"table", path("all"), "--figures", figure, "--csv", path("no.csv")});
+  };
+  expectRefused(tableOf("position_medain_m"), 2,
+                "ortung sweep table: --figures: no finished task has a figure 'position_medain_m': "
+                "did you mean 'position_median_m'?",
+                {});
+  expectRefused(tableOf("lost_share,nees_mean.p50"), 2,
+                "ortung sweep table: --figures: no finished task has a figure 'nees_mean.p50'", {});
+  expectRefused(tableOf("at_corrections"), 2,
+                "ortung sweep table: --figures: no finished task has a figure 'at_corrections'",
+                {"there are at_corrections.position_rmse_m"});
+  EXPECT_FALSE(fs::exists(folder_ / "no.csv"));
+  // A figure that is there but not known is a dash, as the ratio to a bound that was not wanted.
+  EXPECT_EQ(tableOf("ratio_rmse").exitCode, 0);
+}
+
+// Of cases the figures are in a summary, which the table has by itself.
+TEST_F(Sweep, CasesHaveTheFiguresOfTheirSummary) {
+  replace("sweep.toml", "\"--start\", \"truth\"", "\"--wake-ups\", \"2\"");
+  ASSERT_EQ(run("all", {"--task", "n=100,seed=1"}).exitCode, 0);
+  const Outcome usual = sweep({"table", path("all")});
+  EXPECT_EQ(usual.out.substr(0, usual.out.find('\n')),
+            "| n | done | summary.0.right.share | summary.0.after_s.p50 | "
+            "summary.0.position_m.p50 | summary.0.lost_share |");
+  EXPECT_NE(usual.out.find("| 100 | 1 of 5 | "), std::string::npos) << usual.out;
+  expectRefused(sweep({"table", path("all"), "--figures", "right.share"}), 2,
+                "ortung sweep table: --figures: no finished task has a figure 'right.share': did "
+                "you mean 'summary.0.right.share'?",
+                {"There are "});
+}
+
 // Whatever dies on the way: what is done stays done, and nothing else is left. Of fifty shards ten
 // are killed, some before their task has begun, some in the middle of it.
 TEST_F(Sweep, KilledShardsAreRunAgainAndNothingIsLost) {
