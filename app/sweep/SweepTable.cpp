@@ -12,6 +12,7 @@
 
 #include "Console.hpp"
 #include "SweepFigures.hpp"
+#include "SweepMean.hpp"
 
 namespace ortung::app {
 namespace {
@@ -20,31 +21,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Sums up one figure.
-class Summing {
- public:
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    ++count_;
-    const double before = mean_;
-    mean_ += (value - before) / static_cast<double>(count_);
-    squares_ += (value - before) * (value - mean_);
-  }
-  SweepTable::Cell cell() const {
-    const auto n = static_cast<double>(count_);
-    return {count_, count_ > 0 ? mean_ : kNan,
-            count_ > 1 ? std::sqrt(squares_ / (n - 1.0) / n) : kNan};
-  }
-
- private:
-  std::size_t count_ = 0;
-  double mean_ = 0.0;
-  double squares_ = 0.0;
-};
-
 struct Adding {
   SweepTable::Row row;
-  std::vector<Summing> sums;
+  std::vector<SweepMean> sums;
 };
 
 std::string shown(const SweepTable::Cell& cell) {
@@ -155,7 +134,7 @@ SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::s
     std::vector<std::string> values;
     for (const std::size_t k : kept) values.push_back(task.values[k]);
     const auto [place, isNew] = numbers.try_emplace(values, rows.size());
-    if (isNew) rows.push_back({{values, 0, 0, {}}, std::vector<Summing>(table.figures.size())});
+    if (isNew) rows.push_back({{values, 0, 0, {}}, std::vector<SweepMean>(table.figures.size())});
     Adding& row = rows[place->second];
     ++row.row.tasks;
     if (store.resultOf(task).state != SweepStore::State::kDone) {
@@ -169,7 +148,7 @@ SweepTable tableOf(SweepStore& store, const SweepFile& sweep, std::vector<std::s
   }
   if (!areUsual) present.check();
   for (Adding& row : rows) {
-    for (const Summing& sum : row.sums) row.row.cells.push_back(sum.cell());
+    for (const SweepMean& sum : row.sums) row.row.cells.push_back(sum.cell());
     table.rows.push_back(std::move(row.row));
   }
   if (areUsual) keepOnly(table, present.areThere());
