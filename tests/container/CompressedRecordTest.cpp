@@ -202,6 +202,25 @@ TEST(CompressedRecord, ThatIsLiveIsThereFromItsFirstMomentOnAndLacksASecondAtMos
   EXPECT_EQ(folder.files(), 1u);
 }
 
+// A short log is one chunk, of which all is read at once but not yet used.
+TEST(CompressedRecord, ProgressIsThatOfReadingsNotOfChunks) {
+  const TemporaryFolder folder;
+  const auto file = folder / "x.rec";
+  const std::vector<Message> messages = drive(40);
+  write(file, messages);
+  RecordSource source(file);
+  EXPECT_LT(source.progress(), 0.05);
+  double last = 0.0;
+  Message message;
+  for (std::size_t i = 1; source.next(message); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(messages.size());
+    EXPECT_NEAR(source.progress(), share, 0.2) << i;
+    EXPECT_GE(source.progress(), last);
+    last = source.progress();
+  }
+  EXPECT_DOUBLE_EQ(source.progress(), 1.0);
+}
+
 TEST(CompressedRecord, CutAnywhereGivesAllWholeChunksAndSaysWhatIsLeftOut) {
   const TemporaryFolder folder;
   const auto file = folder / "x.rec";

@@ -172,8 +172,15 @@ void ChunkRecord::seek(Timestamp from) {
 double ChunkRecord::progress() const {
   const std::uint64_t whole = frames_.torn() ? frames_.torn()->begin : frames_.size();
   if (!frames_.isFile() || whole == 0) return -1.0;
-  return std::min(1.0, static_cast<double>(frames_.torn() ? whole : frames_.offset()) /
-                           static_cast<double>(whole));
+  if (frames_.torn()) return 1.0;
+  auto done = static_cast<double>(frames_.offset());
+  if (isOpen_ && head_.readings > 0) {
+    // A short log is a single chunk, which is read at once: what counts are its readings.
+    const auto begin = static_cast<double>(frames_.chunkBegin());
+    done = begin + (static_cast<double>(end_) - begin) * static_cast<double>(readings_) /
+                       static_cast<double>(head_.readings);
+  }
+  return std::min(1.0, done / static_cast<double>(whole));
 }
 
 std::string ChunkRecord::remark() const {
