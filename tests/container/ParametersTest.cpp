@@ -61,6 +61,18 @@ TEST(Parameters, GivesTheFallbackForWhatIsMissing) {
   EXPECT_TRUE(p.tables("a").empty());
 }
 
+TEST(Parameters, AMissingKeyIsComparedWithThoseThatNobodyAskedFor) {
+  Parameters p("w.toml");
+  p.set("mass", 5.0);
+  p.set("colour", "red");
+  EXPECT_EQ(complaint([&] { p.number("mass_kg"); }),
+            "w.toml: mass_kg is missing (is 'mass' meant for it?); there are colour, mass");
+  EXPECT_EQ(p.number("mass"), 5.0);
+  EXPECT_EQ(complaint([&] { p.number("mass_kg"); }),
+            "w.toml: mass_kg is missing; there are colour, mass")
+      << "a key that is known is no slip";
+}
+
 TEST(Parameters, SaysWhereAndWhatIsWrong) {
   const Parameters p = example();
   EXPECT_EQ(

@@ -143,13 +143,19 @@ const Parameters::Node& Parameters::need(const std::string& key) const {
   if (node != nullptr) return *node;
   constexpr std::size_t kMostNamed = 8;
   std::string there;
+  std::string meant;
   std::size_t named = 0;
+  const std::vector<std::string> wanted = {key};
+  for (const auto& [name, value] : table_->values)
+    if (meant.empty() && !table_->asked.contains(name) && !nearest(name, wanted).empty())
+      meant = name;
   for (const auto& [name, value] : table_->values) {
     if (named++ == kMostNamed) break;
     there += (there.empty() ? "" : ", ") + name;
   }
   if (table_->values.size() > kMostNamed) there += ", ...";
-  fail(key, "is missing" + (there.empty() ? "" : "; there are " + there));
+  fail(key, "is missing" + (meant.empty() ? "" : " (is '" + meant + "' meant for it?)") +
+                (there.empty() ? "" : "; there are " + there));
 }
 
 double Parameters::toNumber(const std::string& key, const Node& node, const Range& range) const {
