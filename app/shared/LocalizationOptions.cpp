@@ -14,7 +14,10 @@ void addLocalization(Builder& build, LocalizationArguments& a, Localizes when) {
   }
   const HelpGroup group(build, "Localization");
   build.option("--seed", a.seed, "Seed of all random numbers").showsDefault();
-  build.option("--particles", a.particles, "Greatest number of samples; default: the robot file's")
+  build
+      .option("--particles", a.particles,
+              "Greatest number of samples; for a fixed number set mcl.min_particles of the robot "
+              "file to the same, a smaller one lowers that; default: the robot file's")
       .within(1, 1e7);
   build.option("--threads", a.threads, "Threads; the result does not depend on it").within(1, 256);
   build.option("--start", a.start, "global, truth (the first ground truth) or x,y,theta_deg")

@@ -16,14 +16,15 @@ namespace ortung::app {
 namespace {
 
 constexpr std::size_t kMostTasks = 10'000'000;
+constexpr int kDeepest = 4;  ///< values within values
 constexpr std::int64_t kLongestRange = 1'000'000;
 
 [[noreturn]] void refuse(const std::string& file, const toml::node& node, const std::string& what) {
   throw ConfigError(fmt::format("{}:{}: {}", file, node.source().begin.line, what));
 }
 
-/// Returns a number or a text as a word.
-std::string wordOf(const toml::node& node, const std::string& file) {
+/// Returns a number or a text as a word. @param key what errors call it
+std::string wordOf(const toml::node& node, const std::string& key, const std::string& file) {
   if (const auto* text = node.as_string()) return text->get();
   if (node.is_integer() || node.is_floating_point() || node.is_boolean()) {
     std::ostringstream out;
@@ -32,12 +33,13 @@ std::string wordOf(const toml::node& node, const std::string& file) {
     });
     return node.is_boolean() ? (node.as_boolean()->get() ? "true" : "false") : out.str();
   }
-  refuse(file, node, "expected a number or a text");
+  refuse(file, node, key + ": expected a number or a text");
 }
 
-std::vector<std::string> wordsOf(const toml::array& list, const std::string& file) {
+std::vector<std::string> wordsOf(const toml::array& list, const std::string& key,
+                                 const std::string& file) {
   std::vector<std::string> words;
-  for (const toml::node& node : list) words.push_back(wordOf(node, file));
+  for (const toml::node& node : list) words.push_back(wordOf(node, key, file));
   return words;
 }
 
@@ -57,19 +59,25 @@ SweepValue valueIn(const toml::node& node, const std::string& key, const std::st
   SweepValue value;
   if (const toml::array* list = node.as_array()) {
     value.isList = true;
-    value.words = wordsOf(*list, file);
+    value.words = wordsOf(*list, key, file);
     for (const std::string& word : value.words)
       value.name += (value.name.empty() ? "" : " ") + word;
     if (value.words.empty()) value.name = "none";
     return value;
   }
   if (const toml::table* table = node.as_table()) {
-    for (const auto& [field, content] : *table)
-      value.fields[std::string(field.str())] = wordOf(content, file);
+    for (const auto& [name, content] : *table) {
+      const std::string field(name.str());
+      const std::string path = key + "." + field;
+      if (const toml::array* list = content.as_array())
+        value.lists[field] = wordsOf(*list, path, file);
+      else
+        value.fields[field] = wordOf(content, path, file);
+    }
     value.name = value.fields["name"];
     if (value.name.empty()) refuse(file, node, key + ": a table needs a name");
   } else {
-    value.name = wordOf(node, file);
+    value.name = wordOf(node, key, file);
   }
   value.fields[""] = value.name;
   return value;
@@ -83,7 +91,7 @@ std::vector<SweepValue> valuesIn(const toml::node& node, const std::string& key,
   std::int64_t last = 0;
   if (node.is_string() && readRange(node.as_string()->get(), first, last)) {
     for (std::int64_t i = first; i <= last; ++i)
-      values.push_back({std::to_string(i), false, {}, {{"", std::to_string(i)}}});
+      values.push_back({std::to_string(i), false, {}, {{"", std::to_string(i)}}, {}});
   } else if (const toml::array* list = node.as_array()) {
     for (const toml::node& one : *list) values.push_back(valueIn(one, key, file));
   }
@@ -115,7 +123,7 @@ void SweepFile::read(const std::string& name) {
       refuse(name, node, fmt::format("'{}' is not known, expected command and [vary]", key.str()));
   const toml::array* command = all["command"].as_array();
   if (command == nullptr) throw ConfigError(name + ": has no list of words named command");
-  patterns_ = wordsOf(*command, name);
+  patterns_ = wordsOf(*command, "command", name);
   const bool isMatrix =
       patterns_.size() > 1 && patterns_[0] == "benchmark" && patterns_[1] == "goalkeeper";
   if (!isMatrix && (patterns_.empty() || patterns_[0] != "eval"))
@@ -145,14 +153,30 @@ void SweepFile::read(const std::string& name) {
   }
 }
 
+/// Returns the list that a pattern stands for which is nothing but its key, or null.
+const std::vector<std::string>* SweepFile::listOf(
+    const std::string& pattern, const std::vector<const SweepValue*>& values) const {
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    if (values[k]->isList && pattern == "{" + keys_[k] + "}") return &values[k]->words;
+    for (const auto& [field, words] : values[k]->lists)
+      if (pattern == "{" + keys_[k] + "." + field + "}") return &words;
+  }
+  return nullptr;
+}
+
 /// Adds the words of a pattern. @throws std::out_of_range for a place that nothing fills
 void SweepFile::add(std::vector<std::string>& words, const std::string& pattern,
                     const std::vector<const SweepValue*>& values) const {
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
-    if (pattern != "{" + keys_[k] + "}" || !values[k]->isList) continue;
-    words.insert(words.end(), values[k]->words.begin(), values[k]->words.end());
-    return;
-  }
+  const std::vector<std::string>* const list = listOf(pattern, values);
+  if (list == nullptr) return words.push_back(filled(pattern, values, 0));
+  for (const std::string& word : *list) words.push_back(filled(word, values, 1));
+}
+
+/// Returns a pattern with its places filled, also those within what fills them.
+/// @throws std::out_of_range for a place that nothing fills, or values that are within each other
+std::string SweepFile::filled(const std::string& pattern,
+                              const std::vector<const SweepValue*>& values, int depth) const {
+  if (depth > kDeepest) throw std::out_of_range(pattern);
   std::string word;
   for (std::size_t at = 0; at < pattern.size();) {
     const std::size_t open = pattern.find('{', at);
@@ -167,20 +191,35 @@ void SweepFile::add(std::vector<std::string>& words, const std::string& pattern,
     const auto& fields = values[static_cast<std::size_t>(key - keys_.begin())]->fields;
     const auto found = fields.find(field);
     if (found == fields.end()) throw std::out_of_range(inner);
-    word += found->second;
+    word += filled(found->second, values, depth + 1);
     at = close + 1;
   }
-  words.push_back(word);
+  return word;
+}
+
+/// Whether a key stands in the command, or in a value that may stand there.
+bool SweepFile::isUsed(const std::string& key) const {
+  const auto uses = [&](const std::string& pattern) {
+    return pattern.find("{" + key + "}") != pattern.npos ||
+           pattern.find("{" + key + ".") != pattern.npos;
+  };
+  if (std::any_of(patterns_.begin(), patterns_.end(), uses)) return true;
+  for (const auto& all : values_) {
+    for (const SweepValue& value : all) {
+      if (std::any_of(value.words.begin(), value.words.end(), uses)) return true;
+      for (const auto& [field, text] : value.fields)
+        if (uses(text)) return true;
+      for (const auto& [field, words] : value.lists)
+        if (std::any_of(words.begin(), words.end(), uses)) return true;
+    }
+  }
+  return false;
 }
 
 /// Checks that each value is used, and each place is filled.
 void SweepFile::checkUse(const std::string& name) const {
   for (const std::string& key : keys_) {
-    const auto uses = [&](const std::string& pattern) {
-      return pattern.find("{" + key + "}") != pattern.npos ||
-             pattern.find("{" + key + ".") != pattern.npos;
-    };
-    if (std::none_of(patterns_.begin(), patterns_.end(), uses))
+    if (!isUsed(key))
       throw ConfigError(
           fmt::format("{}: {} is varied, but {{{}}} stands nowhere in command", name, key, key));
   }

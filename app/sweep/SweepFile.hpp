@@ -21,8 +21,9 @@ struct SweepTask {
 struct SweepValue {
   std::string name;
   bool isList = false;
-  std::vector<std::string> words;             ///< of a list
-  std::map<std::string, std::string> fields;  ///< of a table; "": the value itself
+  std::vector<std::string> words;                         ///< of a list
+  std::map<std::string, std::string> fields;              ///< of a table; "": the value itself
+  std::map<std::string, std::vector<std::string>> lists;  ///< fields of a table that are lists
 };
 
 /// A file that says what a command is run with: all combinations of some values. Immutable.
@@ -34,7 +35,8 @@ struct SweepValue {
 ///   fault = [[], ["--fault", "readings=crowd"]]
 ///
 /// A value is a number, a text, a list of words (which a word that is nothing but the key stands
-/// for), or a table with a `name` and fields ("{log.robot}"). Paths are relative to the file.
+/// for), or a table with a `name` and fields ("{log.robot}"), each a number, a text or such a list.
+/// Keys within values ("seed={seed}") are filled, too. Paths are relative to the file.
 class SweepFile {
  public:
   /// @throws ConfigError naming file, key, what was found and expected
@@ -57,6 +59,11 @@ class SweepFile {
   void read(const std::string& name);
   void add(std::vector<std::string>& words, const std::string& pattern,
            const std::vector<const SweepValue*>& values) const;
+  std::string filled(const std::string& pattern, const std::vector<const SweepValue*>& values,
+                     int depth) const;
+  const std::vector<std::string>* listOf(const std::string& pattern,
+                                         const std::vector<const SweepValue*>& values) const;
+  bool isUsed(const std::string& key) const;
   void checkUse(const std::string& name) const;
 
   std::string text_;

@@ -22,7 +22,8 @@ void addRun(Builder& build) {
   build.option("--dir", a->dir, kDir).required();
   build.option("--shard", a->shard, "I/N: run the tasks of the I-th of N parts only")
       .showsDefault();
-  build.option("--task", a->task, "Run the task of that name or number only");
+  build.option("--task", a->task,
+               "Run the task of that name or id only, as `ortung sweep plan` lists them");
   build.option("--jobs", a->jobs, "Tasks that run at the same time").within(1, 256).showsDefault();
   build.flag("--progress", a->progress, kProgress);
 }

@@ -53,6 +53,24 @@ fault = [[], ["--fault", "readings=crowd"]]
   EXPECT_EQ(file.task(3).name, "log=b,fault=--fault readings=crowd");
 }
 
+// So that what is lengthy has a short name in tables.
+TEST(SweepFile, FieldsMayBeListsAndHoldOtherKeys) {
+  const SweepFile file = sweep(R"(
+command = ["eval", "--source", "{log.source}", "{what.words}"]
+[vary]
+log = [{ name = "hall", source = "sim:hall.toml?seed={seed}" }]
+what = [{ name = "crowd", words = ["--fault", "readings=crowd@{seed}"] }, { name = "none", words = [] }]
+seed = "3..4"
+)");
+  ASSERT_EQ(file.size(), 4u);
+  EXPECT_EQ(file.task(1).name, "log=hall,what=crowd,seed=4");
+  EXPECT_EQ(file.task(1).words,
+            (std::vector<std::string>{"eval", "--source", "sim:hall.toml?seed=4", "--fault",
+                                      "readings=crowd@4"}));
+  EXPECT_EQ(file.task(2).words,
+            (std::vector<std::string>{"eval", "--source", "sim:hall.toml?seed=3"}));
+}
+
 TEST(SweepFile, IdsAreOfWordsAloneSoThatMoreValuesChangeNone) {
   const std::string command = R"(command = ["eval", "--seed", "{seed}"]
 [vary]
@@ -93,7 +111,11 @@ TEST(SweepFile, SaysWhatIsWrongWhereAndWhatWasExpected) {
             "s.toml:3: a: expected a list of values, or a range as \"1..20\"");
   EXPECT_EQ(refusal(eval + "a = [1, 1]"), "s.toml:3: a: has the value '1' twice");
   EXPECT_EQ(refusal(eval + "a = [{ file = 1 }]"), "s.toml:3: a: a table needs a name");
-  EXPECT_EQ(refusal(eval + "a = [[[1]]]"), "s.toml:3: expected a number or a text");
+  EXPECT_EQ(refusal(eval + "a = [[[1]]]"), "s.toml:3: a: expected a number or a text");
+  EXPECT_EQ(refusal(eval + "a = [{ name = 1, words = [[1]] }]"),
+            "s.toml:3: a.words: expected a number or a text");
+  EXPECT_EQ(refusal(eval + "a = [\"x{sed}\"]"), "s.toml: nothing fills {sed} of '{a}' in command");
+  EXPECT_EQ(refusal(eval + "a = [\"x{a}\"]"), "s.toml: nothing fills {x{a}} of '{a}' in command");
   EXPECT_NE(refusal("command = [").find("s.toml:1"), std::string::npos);
   EXPECT_NE(refusal("command = [\"eval\", \"{a}\", \"{b}\", \"{c}\"]\n[vary]\na = \"1..1000\"\n"
                     "b = \"1..1000\"\nc = \"1..1000\"")
