@@ -1,6 +1,7 @@
 #include "SweepRunner.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Console.hpp"
 #include "Interrupt.hpp"
 #include "ortung/base/NewFile.hpp"
 
@@ -80,6 +82,7 @@ std::vector<std::string> SweepRunner::run(const std::vector<SweepTask>& tasks,
   std::vector<std::string> failed;
   std::size_t next = 0;
   std::size_t ended = 0;
+  bool isTold = false;  ///< whether the user knows that the signal came
   while (ended < tasks.size()) {
     while (next < tasks.size() && running.size() < jobs_ && interruptSignal() == 0) {
       Diary diary = newDiary();
@@ -88,6 +91,10 @@ std::vector<std::string> SweepRunner::run(const std::vector<SweepTask>& tasks,
       ++next;
     }
     if (running.empty()) checkInterrupt();
+    if (interruptSignal() != 0 && !std::exchange(isTold, true))
+      warn(fmt::format(
+          "ends after the running {}; what is done stays done, the same command goes on",
+          running.size() == 1 ? "task" : "tasks"));
     int status = 0;
     struct rusage usage{};
     const pid_t process = ::wait4(-1, &status, 0, &usage);

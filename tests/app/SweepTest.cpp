@@ -237,6 +237,19 @@ TEST_F(Sweep, CasesHaveTheFiguresOfTheirSummary) {
                 {"There are "});
 }
 
+// Who ends a sweep learns at once that a task is still running, and which results stay.
+TEST_F(Sweep, SaysThatItEndsAfterTheRunningTask) {
+  replace("sweep.toml", "1..5", "1..200");
+  Program program({"sweep", "run", path("sweep.toml"), "--dir", path("all"), "--progress"});
+  ASSERT_TRUE(program.waitForError("running tasks"));
+  program.signal(SIGTERM);
+  const Outcome outcome = program.finish();
+  EXPECT_NE(outcome.exitCode, 0);
+  EXPECT_NE(outcome.err.find("ends after the running task; what is done stays done"),
+            std::string::npos)
+      << outcome.err;
+}
+
 // Whatever dies on the way: what is done stays done, and nothing else is left. Of fifty shards ten
 // are killed, some before their task has begun, some in the middle of it.
 TEST_F(Sweep, KilledShardsAreRunAgainAndNothingIsLost) {
