@@ -139,14 +139,15 @@ int runLearn(const LearnArguments& arguments) {
   outputs.reads(arguments.robot);
   const bool isPart = !arguments.shard.empty();
   outputs.writes("--out", arguments.out, isPart ? OutputKind::kPart : OutputKind::kTables);
-  applySettings(arguments.robot, arguments.settings);
-  readRobot(arguments.robot);
-  if (isPart) {
-    learnShard(arguments, readShard(arguments.shard), outputs.ready(arguments.out));
+  return withSettings(arguments.robot, arguments.settings, [&] {
+    readRobot(arguments.robot);
+    if (isPart) {
+      learnShard(arguments, readShard(arguments.shard), outputs.ready(arguments.out));
+    } else {
+      letLearn(arguments, outputs.ready(arguments.out));
+    }
     return 0;
-  }
-  letLearn(arguments, outputs.ready(arguments.out));
-  return 0;
+  });
 }
 
 }  // namespace ortung::app

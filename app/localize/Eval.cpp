@@ -184,12 +184,9 @@ int runShard(const EvalSettings& settings, std::vector<EvalJob> jobs, const Outp
   return 0;
 }
 
-}  // namespace
-
-int runEval(const EvalArguments& arguments) {
+int evaluate(const EvalArguments& arguments) {
   if (arguments.localization.besideGrid && arguments.localization.filter == "grid")
     throw UsageError("--against-grid compares MCL with the grid filter, and --filter is grid");
-  applySettings(arguments.localization.robot, arguments.localization.settings);
   const EvalSettings settings{arguments, readOptions(arguments), readFaults(arguments)};
   std::vector<EvalJob> jobs = jobsOf(arguments);
   const Outputs outputs = outputsOf(arguments, jobs.size());
@@ -213,6 +210,13 @@ int runEval(const EvalArguments& arguments) {
   if (!arguments.json.empty()) outputs.write(arguments.json, toJson(runs));
   fmt::print("{}", toText(runs));
   return 0;
+}
+
+}  // namespace
+
+int runEval(const EvalArguments& arguments) {
+  return withSettings(arguments.localization.robot, arguments.localization.settings,
+                      [&] { return evaluate(arguments); });
 }
 
 }  // namespace ortung::app

@@ -222,12 +222,9 @@ class LocalizeRun {
   bool warned_ = false;
 };
 
-}  // namespace
-
-int runLocalize(const LocalizeArguments& arguments) {
+int localize(const LocalizeArguments& arguments) {
   Outputs outputs(arguments.localization.force);
   declareInputs(arguments.localization, outputs);
-  applySettings(arguments.localization.robot, arguments.localization.settings);
   outputs.writes("--out", arguments.out, kindOf(formatOf(arguments)));
   outputs.writes("--truth", arguments.truth, OutputKind::kPosesTum);
   outputs.writes("--belief", arguments.belief, OutputKind::kBelief);
@@ -241,6 +238,13 @@ int runLocalize(const LocalizeArguments& arguments) {
   run.toTheEnd();
   run.finish();
   return 0;
+}
+
+}  // namespace
+
+int runLocalize(const LocalizeArguments& arguments) {
+  return withSettings(arguments.localization.robot, arguments.localization.settings,
+                      [&] { return localize(arguments); });
 }
 
 }  // namespace ortung::app

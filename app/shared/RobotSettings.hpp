@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,11 @@ inline void addSettings(Builder& build, std::vector<std::string>& settings) {
 
 /// Applies them to all that read the robot file from now on. @throws UsageError
 void applySettings(const std::filesystem::path& robot, const std::vector<std::string>& settings);
+
+/// Applies them and does what reads the robot file. An error of a key that was set names the
+/// option, since the file's lines are not those of the user's.
+/// @returns what @p work returns @throws UsageError
+int withSettings(const std::filesystem::path& robot, const std::vector<std::string>& settings,
+                 const std::function<int()>& work);
 
 }  // namespace ortung::app

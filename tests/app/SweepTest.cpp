@@ -250,6 +250,21 @@ TEST_F(Sweep, SaysThatItEndsAfterTheRunningTask) {
       << outcome.err;
 }
 
+// A misspelt setting is in no line of the robot file.
+TEST_F(Sweep, SettingsThatAreWrongAreNamedAsGiven) {
+  const auto evalWith = [this](const std::string& setting) {
+    return ortung({"eval", "--source", "record:" + path("run.rec"), "--robot", path("robot.toml"),
+                   "--tables", path("hall.ortung"), "--set", "mcl.min_particles=50", "--set",
+                   setting});
+  };
+  expectRefused(evalWith("mcl.particels=500"), 2,
+                "ortung eval: --set mcl.particels=500: particels is not known here (did you mean "
+                "'particles'?)",
+                {});
+  expectRefused(evalWith("mcl.particles=-5"), 2,
+                "ortung eval: --set mcl.particles=-5: particles is -5, must be ", {});
+}
+
 // Whatever dies on the way: what is done stays done, and nothing else is left. Of fifty shards ten
 // are killed, some before their task has begun, some in the middle of it.
 TEST_F(Sweep, KilledShardsAreRunAgainAndNothingIsLost) {
