@@ -6,6 +6,19 @@
 #include "ortung/base/Pose2.hpp"
 
 namespace ortung::python {
+namespace {
+
+constexpr const char* kExpected = ", expected 'global', 'truth' or (x, y, theta)";
+
+/// What was given, in a line.
+std::string shown(const py::object& start) {
+  constexpr std::size_t kLongest = 60;
+  const auto text = py::cast<std::string>(py::repr(start));
+  if (text.size() <= kLongest) return text;
+  return "of the type " + py::cast<std::string>(py::type::of(start).attr("__name__"));
+}
+
+}  // namespace
 
 LocalizationStart startOf(const py::object& start) {
   LocalizationStart result;
@@ -13,10 +26,15 @@ LocalizationStart startOf(const py::object& start) {
     const auto kind = py::cast<std::string>(start);
     if (kind == "truth") result.kind = LocalizationStart::Kind::kTruth;
     if (kind != "truth" && kind != "global")
-      throw py::value_error("start is '" + kind + "', expected 'global', 'truth' or (x, y, theta)");
+      throw py::value_error("start is '" + kind + "'" + kExpected);
     return result;
   }
-  const auto pose = py::cast<std::array<double, 3>>(start);
+  std::array<double, 3> pose{};
+  try {
+    pose = py::cast<std::array<double, 3>>(start);
+  } catch (const py::cast_error&) {
+    throw py::value_error("start is " + shown(start) + kExpected);
+  }
   result.kind = LocalizationStart::Kind::kPose;
   result.pose = {pose[0], pose[1], wrapAngle(pose[2])};
   return result;

@@ -135,8 +135,12 @@ class Notebook(unittest.TestCase):
         for start in ("nowhere", "", "Truth"):
             with self.assertRaisesRegex(ValueError, f"start is '{start}', expected 'global', 'truth' or"):
                 ortung.Localization(ROBOT, self.tables, start=start)
-        with self.assertRaises((RuntimeError, TypeError, ValueError)):
-            ortung.Localization(ROBOT, self.tables, start=(1, 2))
+        for start, shown in (((1, 2), r"\(1, 2\)"), (None, "None"), ((1, 2, "x"), r"\(1, 2, 'x'\)"),
+                             ([0.0] * 100, "of the type list")):
+            with self.assertRaisesRegex(ValueError, f"^start is {shown}, expected 'global', 'truth' or .x, y, theta.$"):
+                ortung.Localization(ROBOT, self.tables, start=start)
+            with self.assertRaisesRegex(ValueError, f"^start is {shown}, expected 'global', 'truth' or .x, y, theta.$"):
+                ortung.evaluate(source, ROBOT, self.tables, start=start)
 
     def test_maps_have_their_peak_at_the_robot(self):
         whole = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}")
