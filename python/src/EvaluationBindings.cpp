@@ -97,7 +97,7 @@ Evaluated evaluateRun(const std::string& source, const std::filesystem::path& ro
                       const std::filesystem::path& tables, std::uint64_t seed,
                       std::optional<std::size_t> particles, std::optional<unsigned> threads,
                       const py::object& start, double convergedMetres, double convergedDegrees,
-                      const py::object& progress) {
+                      const py::object& progress, bool anyWorld) {
   const LocalizationConfig config =
       configOf(robot, tables, source, seed, particles, threads, start);
   if (source.empty()) throw py::value_error("source is '', expected 'KIND:PATH?key=value'");
@@ -108,18 +108,18 @@ Evaluated evaluateRun(const std::string& source, const std::filesystem::path& ro
   options.convergedRadians = radians(convergedDegrees);
   ProgressTeller teller(progress);
   const py::gil_scoped_release others;
-  Localization localization(config);
+  const std::unique_ptr<Localization> localization = localizationOf(config, anyWorld);
   Evaluated result;
   try {
     result.run =
-        evaluate(localization, source, options, [&](double share) { return teller.tell(share); });
+        evaluate(*localization, source, options, [&](double share) { return teller.tell(share); });
   } catch (const std::runtime_error&) {
     teller.raiseIfStopped();  // a run that was stopped at its begin has nothing to evaluate
     throw;
   }
   teller.raiseIfStopped();
-  result.robot = localization.robot().config.name;
-  result.world = localization.robot().tables.world;
+  result.robot = localization->robot().config.name;
+  result.world = localization->robot().tables.world;
   return result;
 }
 
@@ -203,11 +203,17 @@ void bindEvaluation(py::module_& module) {
       "evaluate", &evaluateRun, py::arg("source"), py::arg("robot"), py::arg("tables"),
       py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
       py::arg("start") = "global", py::arg("converged_m") = 0.5, py::arg("converged_deg") = 15.0,
-      py::arg("progress") = py::none(),
+      py::arg("progress") = py::none(), py::arg("any_world") = false,
       "Localizes a robot by a source with ground truth and compares, as `ortung eval` does. "
+      "source: 'KIND:PATH?key=value', e.g. 'record:run.rec'; robot, tables: files. particles, "
+      "threads: None for what the robot file says. start: 'global' (it may be anywhere), 'truth' "
+      "(at the source's first ground truth) or a pose (x, y, theta) in the field [m, rad]. "
       "converged_m, converged_deg: errors are counted from the time on from which they stay below "
-      "these for 5 s. progress(share) is called now and then with what is done, in [0, 1]; what it "
-      "raises ends the run.");
+      "these for 5 s. progress: a function that is called now and then with the share of the run "
+      "that is done, in [0, 1]; what it raises ends the run, and evaluate() raises it. any_world: "
+      "whether the readings may be of another world than the tables. ValueError for other starts, "
+      "WorldMismatch for another world, RuntimeError if there is nothing to localize with: "
+      "features are those of the robot file. Returns an EvaluatedRun.");
 }
 
 }  // namespace ortung::python

@@ -74,13 +74,13 @@ std::string reprOf(const PoseEstimate& e) {
 
 Shared open(const std::filesystem::path& robot, const std::filesystem::path& tables,
             const std::string& source, std::uint64_t seed, std::optional<std::size_t> particles,
-            std::optional<unsigned> threads, const py::object& start) {
+            std::optional<unsigned> threads, const py::object& start, bool anyWorld) {
   const LocalizationConfig config =
       configOf(robot, tables, source, seed, particles, threads, start);
   const auto made = std::make_shared<SharedLocalization>();
   made->hasSource = !source.empty();
   const py::gil_scoped_release others;
-  made->localization = std::make_unique<Localization>(config);
+  made->localization = localizationOf(config, anyWorld);
   return made;
 }
 
@@ -277,10 +277,11 @@ void bindLocalization(py::module_& module) {
   bound
       .def(py::init(&open), py::arg("robot"), py::arg("tables"), py::arg("source") = "",
            py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
-           py::arg("start") = "global",
+           py::arg("start") = "global", py::arg("any_world") = false,
            "Opens a robot file and its tables. source: 'KIND:PATH?key=value', or '' if the program "
            "sets readings; particles, threads: None for what the robot file says; start: 'global', "
-           "'truth' (the source's first ground truth) or a pose (x, y, theta) [m, rad].")
+           "'truth' (the source's first ground truth) or a pose (x, y, theta) [m, rad]; any_world: "
+           "whether the source may be of another world than the tables.")
       .def_property_readonly(
           "container",
           [](const Shared& self) {

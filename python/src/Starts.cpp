@@ -55,4 +55,13 @@ LocalizationConfig configOf(const std::filesystem::path& robot, const std::files
   return config;
 }
 
+std::unique_ptr<Localization> localizationOf(LocalizationConfig config, bool anyWorld) {
+  config.anyWorld = true;  // the message below names the argument
+  auto localization = std::make_unique<Localization>(config);
+  if (!anyWorld && !localization->worldMismatch().empty())
+    throw WorldMismatch(localization->worldMismatch() +
+                        "; learn the tables in the same world, or give any_world=True");
+  return localization;
+}
+
 }  // namespace ortung::python

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,5 +19,10 @@ LocalizationConfig configOf(const std::filesystem::path& robot, const std::files
                             const std::string& source, std::uint64_t seed,
                             std::optional<std::size_t> particles, std::optional<unsigned> threads,
                             const py::object& start);
+
+/// The localization of a configuration. A mismatch is told by the name that the argument has here.
+/// @throws WorldMismatch if the readings are of another world than the tables and that was not
+///   permitted, and what Localization does
+std::unique_ptr<Localization> localizationOf(LocalizationConfig config, bool anyWorld);
 
 }  // namespace ortung::python

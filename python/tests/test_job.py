@@ -122,6 +122,20 @@ class Job(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "nothing to localize with"):
             ortung.evaluate(f"record:{lone}", ROBOT, self.tables)
 
+    def test_another_world_must_be_permitted(self):
+        other = self.path("other.rec")
+        with ortung.RecordWriter(other, ortung.Robot(ROBOT).container, "0" * 16) as record:
+            for reading in ortung.readings(self.source):
+                record.write(*reading)
+        source = f"record:{other}"
+        for call in (lambda **more: ortung.evaluate(source, ROBOT, self.tables, **more),
+                     lambda **more: ortung.Localization(ROBOT, self.tables, source, **more)):
+            with self.assertRaisesRegex(ortung.WorldMismatch, "comes from the world 0{16}, but .* or give any_world=True$"):
+                call()
+            call(any_world=True)
+        permitted = ortung.evaluate(source, ROBOT, self.tables, any_world=True)
+        np.testing.assert_array_equal(permitted.path, ortung.evaluate(self.source, ROBOT, self.tables).path)
+
     def test_nothing_of_another_kind_is_overwritten(self):
         notes = self.path("notes.txt")
         pathlib.Path(notes).write_text("mine\n")
