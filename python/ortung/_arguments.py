@@ -47,6 +47,9 @@ def _kind(kind):
             return lambda one: one is None or fits(one), f"{name} or None"
         return (lambda one: _is_list(one) and len(one) == int(inside[3] or len(one)) and all(map(fits, one)),
                 f"a list of {inside[3] or 'any length'}, each {name}")
+    if kind.startswith("Union["):
+        kinds = [_kind(one) for one in _split(kind[len("Union["):-1])]
+        return lambda one: any(fits(one) for fits, _ in kinds), " or ".join(name for _, name in kinds)
     if kind.startswith("ortung."):
         last = kind.rpartition(".")[2]
         return lambda one: last in [base.__name__ for base in type(one).__mro__], f"{_article(last)} {last}"
@@ -57,7 +60,8 @@ def _article(word):
     return "an" if word[0].lower() in "aeiou" else "a"
 
 
-def _shown(value):
+def shown(value):
+    """Returns what a sentence calls a value: its repr, or the name of its class if that is long or fails."""
     try:
         text = repr(value)
     except Exception:  # of a class of the user's
@@ -91,12 +95,12 @@ def _sentence(who, wanted, args, kwargs):
         return f"{who}() lacks {' and '.join(missing)}"
     for name, kind, _ in wanted:
         if name in given and not _kind(kind)[0](given[name]):
-            return f"{who}(): {name} is {_shown(given[name])}, expected {_kind(kind)[1]}"
+            return f"{who}(): {name} is {shown(given[name])}, expected {_kind(kind)[1]}"
     for name, kind, _ in wanted:
         if name in given and "int" in kind and isinstance(given[name], int):
             lower = "a whole number that fits its range; most may not be negative"
-            return f"{who}(): {name} is {_shown(given[name])}, expected {lower}" if given[name] < 0 else \
-                f"{who}(): {name} is {_shown(given[name])}, expected a smaller whole number"
+            return f"{who}(): {name} is {shown(given[name])}, expected {lower}" if given[name] < 0 else \
+                f"{who}(): {name} is {shown(given[name])}, expected a smaller whole number"
     return None
 
 
@@ -126,6 +130,13 @@ def told(error, args, kwargs):
     better = TypeError(sentence)
     better.__cause__ = error.__cause__
     return better
+
+
+def need(who, name, value, kind, origin):
+    """Raises TypeError, which says what was expected and where that comes from, unless the value is of a class."""
+    if not isinstance(value, kind):
+        expected = f"{_article(kind.__name__)} {kind.__name__} ({origin})"
+        raise TypeError(f"{who}(): {name} is {shown(value)}, expected {expected}")
 
 
 def plainly(function):

@@ -3,9 +3,12 @@
 Each draws into `axes`, or into those of a new figure, in the field's frame [m], and returns the axes; `axes.figure`
 is what savefig() belongs to. Matplotlib is loaded with the first picture.
 """
+import os
+
 import numpy as np
 
-from ._arguments import plainly
+from ._arguments import need, plainly, shown
+from ._core import EvaluatedRun, Localization, Robot
 from ._needs import needs
 
 __all__ = ["map", "robot", "run", "world"]
@@ -22,6 +25,8 @@ def _axes(axes):
         except ImportError as error:
             raise ImportError(needs("pictures", "Matplotlib", ["python3-matplotlib"], error)) from error
         _, axes = pyplot.subplots(layout="constrained")
+    elif not hasattr(axes, "set_aspect"):
+        raise TypeError(f"axes is {shown(axes)}, expected axes of Matplotlib, or None")
     axes.set_aspect("equal")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
@@ -33,6 +38,8 @@ def world(world, axes=None):
     """Draws a World, or the file of one: walls, bodies, painted lines and landmarks."""
     from . import World
 
+    if not isinstance(world, (World, str, os.PathLike)):
+        raise TypeError(f"world(): world is {shown(world)}, expected a World, or the file of one")
     world = world if isinstance(world, World) else World(world)
     axes = _axes(axes)
     for line in world.lines:
@@ -64,6 +71,7 @@ def robot(robot, pose=(0.0, 0.0, 0.0), axes=None, reach=None):
     """Draws a Robot at a pose (x, y, heading) [m, rad]: its body, and where each sensor sits and looks.
 
     reach: length of the drawn fields of view [m]; None: three times the robot's radius."""
+    need("robot", "robot", robot, Robot, "of a robot file: ortung.Robot(FILE)")
     axes = _axes(axes)
     x, y, heading = pose
     radius = robot.radius
@@ -106,6 +114,7 @@ def map(localization, features=None, *, log=False, headings=None, pose=None, axe
     The darker, the more probable, as in the pictures of `ortung show`; grey is where no robot can be. log: colours
     stand for ln p(s|l); the least twentieth of the cells has the palest one. pose: (x, y, heading) that is marked, e.g. the truth [m, rad].
     The title says so if there is no reading yet: then all poses are equally probable."""
+    need("map", "localization", localization, Localization, "of a robot file and tables: ortung.Localization(ROBOT, TABLES)")
     axes = _axes(axes)
     chart = localization.probability_map(features, headings, log)
     extent = localization.extent
@@ -133,6 +142,7 @@ def run(run, world=None, axes=None):
     """Draws an EvaluatedRun: the true way, and the estimates in the colour of their status.
 
     world: a World, or the file of one, that is drawn below."""
+    need("run", "run", run, EvaluatedRun, "of evaluate()")
     from . import draw
 
     axes = _axes(axes) if world is None else draw.world(world, axes)

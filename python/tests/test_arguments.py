@@ -65,6 +65,12 @@ class Arguments(unittest.TestCase):
 
     def test_of_pictures_are_named_alike(self):
         self.refused("map() has no argument 'lgo': did you mean 'log'?", ortung.draw.map, None, lgo=True)
+        self.refused("run(): run is 'x', expected an EvaluatedRun (of evaluate())", ortung.draw.run, "x")
+        self.refused("robot(): robot is 'r.toml', expected a Robot (of a robot file: ortung.Robot(FILE))",
+                     ortung.draw.robot, "r.toml")
+        self.refused("map(): localization is None, expected a Localization (of a robot file and tables: "
+                     "ortung.Localization(ROBOT, TABLES))", ortung.draw.map, None)
+        self.refused("world(): world is 3, expected a World, or the file of one", ortung.draw.world, 3)
         self.assertEqual(list(inspect.signature(ortung.draw.world).parameters), ["world", "axes"])
 
     def test_are_in_the_help_as_before(self):
