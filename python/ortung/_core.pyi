@@ -158,7 +158,7 @@ class Localization:
     def samples(self) -> Dict[str, npt.NDArray[np.float32]]: ...
     def probability_map(
         self,
-        features: Optional[Sequence[str]] = None,
+        features: Optional[Union[str, Sequence[str]]] = None,
         headings: Optional[Sequence[float]] = None,
         log: bool = False,
     ) -> npt.NDArray[np.float64]: ...

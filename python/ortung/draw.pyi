@@ -12,7 +12,7 @@ def robot(
 ) -> Any: ...
 def map(
     localization: Localization,
-    features: Optional[Sequence[str]] = None,
+    features: Optional[Union[str, Sequence[str]]] = None,
     *,
     log: bool = False,
     headings: Optional[Sequence[float]] = None,

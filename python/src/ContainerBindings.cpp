@@ -7,6 +7,7 @@
 #include <string>
 
 #include "Bindings.hpp"
+#include "FeatureNames.hpp"
 #include "OwnSensor.hpp"
 #include "Robots.hpp"
 #include "Values.hpp"
@@ -17,18 +18,9 @@ namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-SensorData& need(SensorContainer& container, const std::string& query) {
-  SensorData* found = container.find(parseSensorQuery(query));
-  if (found != nullptr) return *found;
-  std::string known;
-  for (const auto& one : container.all()) known += (known.empty() ? "" : ", ") + toText(one->id());
-  throw py::key_error("there is no feature " + query + "; there " +
-                      (known.empty() ? "is none" : "are " + known));
-}
-
 SensorData& find(const Container& self, const std::string& query) {
   const Gate::Together visit(*self.gate);
-  return need(*self.container, query);
+  return needFeature(*self.container, query);
 }
 
 /// The newest readings, which stay while this lives. It waits for them without Python's lock.
@@ -100,10 +92,10 @@ void set(const Container& self, Timestamp stamp, const SensorId& id,
 
 /// The feature of this very name.
 SensorData& exactly(const Container& self, const std::string& feature) {
-  const SensorId id = parseSensorId(feature);
   const Gate::Together visit(*self.gate);
+  const SensorId id = featureIdOf(feature, self.container);
   SensorData* found = self.container->findExactly(id);
-  return found != nullptr ? *found : need(*self.container, feature);
+  return found != nullptr ? *found : needFeature(*self.container, feature);
 }
 
 void setWords(const Container& self, Timestamp stamp, const std::string& feature,
@@ -128,7 +120,7 @@ void addScalar(const Container& self, const std::string& feature, double maxRang
   ScalarData::Config config{maxRange, 0.0, {}};
   config.model.sigma = sigma;
   config.model.outliers = outliers;
-  auto data = std::make_unique<ScalarData>(parseSensorId(feature), Pose2{}, config);
+  auto data = std::make_unique<ScalarData>(featureIdOf(feature), Pose2{}, config);
   alone(*self.gate, [&] { self.container->add(std::move(data)); });
 }
 
@@ -185,16 +177,14 @@ void bindReadings(PyContainer& container) {
           "features",
           [](const Container& self) {
             const Gate::Together visit(*self.gate);
-            std::vector<std::string> all;
-            for (const auto& one : self.container->all()) all.push_back(toText(one->id()));
-            return all;
+            return namesOf(*self.container);
           },
           "The names of all features, in the order of the robot file.")
       .def(
           "get",
           [](const Container& self, const std::string& query) {
             const Look look(self);
-            return readingOf(need(*self.container, query));
+            return readingOf(needFeature(*self.container, query));
           },
           py::arg("feature"),
           "The newest reading in metres and radians, or None. Scan: ranges; pose: x, y, heading; "
@@ -204,7 +194,7 @@ void bindReadings(PyContainer& container) {
           "words",
           [](const Container& self, const std::string& query) {
             const Look look(self);
-            const auto words = need(*self.container, query).getData();
+            const auto words = needFeature(*self.container, query).getData();
             return copyOf(std::vector<std::uint32_t>(words.begin(), words.end()));
           },
           py::arg("feature"), "The newest reading as a record has it.")
@@ -212,7 +202,7 @@ void bindReadings(PyContainer& container) {
           "stamp",
           [](const Container& self, const std::string& query) -> py::object {
             const Look look(self);
-            const SensorData& data = need(*self.container, query);
+            const SensorData& data = needFeature(*self.container, query);
             return data.sequence() == 0 ? py::object(py::none()) : py::cast(data.stamp());
           },
           py::arg("feature"), "Of the newest reading [us], or None.")
@@ -249,12 +239,18 @@ void bindModels(PyContainer& container) {
            "the last of the words as its reading, at the time 0.")
       .def("learn_values", &learnValues, py::arg("feature"), py::arg("region"), py::arg("values"),
            py::arg("poses") = py::none(), py::arg("heading_step") = 0.1,
-           "The same of noise-free readings in metres and radians, each as get() gives it.")
+           "Takes noise-free readings in metres and radians, each as get() gives it, as what the "
+           "feature reads at poses (N, 3): x, y [m], heading [rad]; without them at the centres of "
+           "the region's cells, with heading 0, one value for each. heading_step [rad] divides the "
+           "turn of features that depend on the heading. Forgets what the feature had learned, and "
+           "leaves the last of the values as its reading, at the time 0. Until then the feature "
+           "can't weigh, so it comes before localizing. KeyError for a feature that is not there, "
+           "ValueError for readings that it can't have; then nothing is learned.")
       .def(
           "expectation",
           [](const Container& self, const std::string& query, double x, double y, double theta) {
             const Look look(self);
-            return copyOf(need(*self.container, query).expectation({x, y, theta}));
+            return copyOf(needFeature(*self.container, query).expectation({x, y, theta}));
           },
           py::arg("feature"), py::arg("x"), py::arg("y"), py::arg("theta"),
           "What the feature should read at a pose, by its tables.")

@@ -10,11 +10,14 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <variant>
 
 #include "Bindings.hpp"
+#include "FeatureNames.hpp"
 #include "OwnSensor.hpp"
 #include "Robots.hpp"
 #include "Starts.hpp"
+#include "ortung/base/Nearest.hpp"
 #include "ortung/run/FieldMaps.hpp"
 #include "ortung/run/Localization.hpp"
 
@@ -133,25 +136,50 @@ py::array mapOf(const FieldGrid& grid, const std::vector<double>& values) {
       {static_cast<py::ssize_t>(grid.rows), static_cast<py::ssize_t>(grid.columns)});
 }
 
+/// What a map is made of: one pattern or several; none: all features that localize.
+using Patterns = std::optional<std::variant<std::string, std::vector<std::string>>>;
+
+std::vector<std::string> listOf(const Patterns& patterns) {
+  if (const auto* const one = std::get_if<std::string>(&*patterns)) return {*one};
+  return std::get<std::vector<std::string>>(*patterns);
+}
+
+/// Says which patterns no feature fits that localizes.
+[[noreturn]] void refusePatterns(const SensorContainer& container,
+                                 const std::vector<std::string>& patterns) {
+  if (patterns.empty()) throw py::value_error("features is empty, expected a pattern or None");
+  std::string all;
+  for (const std::string& one : patterns) all += (all.empty() ? "'" : ", '") + one + "'";
+  std::vector<std::string> localizing;
+  for (const auto& data : container.all())
+    if (data->localizes()) localizing.push_back(toText(data->id()));
+  throw py::key_error(
+      "no feature that localizes fits " + all +
+      (patterns.size() == 1 ? didYouMean(all.substr(1, all.size() - 2), localizing) : "") +
+      thereAre(localizing));
+}
+
 /// The weighers that a map is made of.
-Weighers chosenWeighers(Localization& self, const std::optional<std::vector<std::string>>& features,
+Weighers chosenWeighers(Localization& self, const Patterns& features,
                         std::optional<std::vector<double>>& headings) {
   const SensorContainer::ReadLock lock = self.container().read();
+  const std::vector<std::string> patterns =
+      features ? listOf(features) : std::vector<std::string>{"*/*/*"};
+  std::vector<SensorQuery> queries;
+  for (const std::string& one : patterns) queries.push_back(featureQueryOf(one, self.container()));
   std::vector<const SensorData*> chosen;
   for (const auto& data : self.container().all()) {
-    bool isChosen = !features.has_value();
-    if (features)
-      for (const std::string& query : *features)
-        isChosen = isChosen || matches(parseSensorQuery(query), data->id());
+    const bool isChosen =
+        std::any_of(queries.begin(), queries.end(),
+                    [&](const SensorQuery& query) { return matches(query, data->id()); });
     if (isChosen && data->localizes()) chosen.push_back(data.get());
   }
-  if (features && chosen.empty()) throw py::key_error("none of the features localizes");
+  if (features && chosen.empty()) refusePatterns(self.container(), patterns);
   if (!headings) headings = mapHeadings(self.robot().tables.headingStep, chosen);
   return weighersOf(chosen);
 }
 
-py::array probability(SharedLocalization& self,
-                      const std::optional<std::vector<std::string>>& features,
+py::array probability(SharedLocalization& self, const Patterns& features,
                       std::optional<std::vector<double>> headings, bool isLog) {
   const FieldRegion& region = self.localization->robot().tables.region;
   const std::vector<double> values = visit(self, [&](Localization& one) {
@@ -167,9 +195,8 @@ py::array expectation(SharedLocalization& self, const std::string& feature, std:
   const FieldRegion& region = self.localization->robot().tables.region;
   const std::vector<double> values = visit(self, [&](Localization& one) {
     const SensorContainer::ReadLock lock = one.container().read();
-    const SensorData* data = one.container().find(parseSensorQuery(feature));
-    if (data == nullptr) throw py::key_error("there is no feature " + feature);
-    return expectationMap(region, *data, index, heading).values;
+    const SensorData& data = needFeature(one.container(), feature);
+    return expectationMap(region, data, index, heading).values;
   });
   return mapOf(region.grid, values);
 }
@@ -253,8 +280,11 @@ void bindArrays(PyLocalization& bound) {
           "probability_map", &probability, py::arg("features") = py::none(),
           py::arg("headings") = py::none(), py::arg("log") = false,
           "p(s|l) of the present readings, (rows, columns) from the lower left corner: the best of "
-          "the headings [rad] for each cell; NaN where a cell is not open. With log=True ln p, "
-          "also where p is too small for a number.")
+          "the headings [rad] for each cell; NaN where a cell is not open. features: the name of a "
+          "feature, a pattern such as '*/LRF/*' ('*' stands for any part), or a list of these; "
+          "None: all that localize. headings: None for those that the tables have. With log=True "
+          "ln p, also where p is too small for a number. KeyError if no feature that localizes "
+          "fits, with those that there are.")
       .def("expectation_map", &expectation, py::arg("feature"), py::arg("index") = 0,
            py::arg("heading") = 0.0, "What a feature expects over the field, [m] or [rad].")
       .def_property_readonly(

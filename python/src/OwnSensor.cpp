@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "FeatureNames.hpp"
 #include "ortung/base/Nearest.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/tables/SensorModel.hpp"
@@ -270,7 +271,7 @@ std::unique_ptr<SensorData> makeOwnSensor(const std::string& feature, const py::
   if (count < 1 || count > kMostNumbers)
     throw py::value_error(feature + ": values is " + std::to_string(count) +
                           ", expected 1 to 100000");
-  auto data = std::make_unique<OwnFeature>(parseSensorId(feature),
+  auto data = std::make_unique<OwnFeature>(featureIdOf(feature),
                                            std::make_shared<PythonSensor>(feature, sensor, count));
   if (!data->sensor().learns()) {  // it knows all from the start
     const FieldRegion nowhere{{0.0, 0.0, 1.0, 1, 1}, {1}, {1}, 0.0};

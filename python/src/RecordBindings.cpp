@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Bindings.hpp"
+#include "FeatureNames.hpp"
 #include "OwnFiles.hpp"
 #include "Robots.hpp"
 #include "Values.hpp"
@@ -41,7 +42,7 @@ void needOpen(const SharedWriter& self) {
 
 void write(SharedWriter& self, Timestamp stamp, const std::string& feature,
            std::vector<std::uint32_t> words) {
-  const Message message{stamp, parseSensorId(feature), std::move(words)};
+  const Message message{stamp, featureIdOf(feature), std::move(words)};
   if (self.any && stamp < self.newest)
     throw py::value_error(self.file + ": a reading of " + std::to_string(stamp) +
                           " us comes after one of " + std::to_string(self.newest) +
@@ -57,11 +58,10 @@ void needFeature(const SharedWriter& self, const std::string& feature) {
   if (!self.container) return;
   const Gate::Together visit(*self.container->gate);
   const SensorContainer& container = *self.container->container;
-  if (container.findExactly(parseSensorId(feature)) != nullptr) return;
-  std::vector<std::string> names;
-  for (const auto& one : container.all()) names.push_back(toText(one->id()));
+  if (container.findExactly(featureIdOf(feature, &container)) != nullptr) return;
+  const std::vector<std::string> names = namesOf(container);
   throw py::key_error("there is no feature " + feature + " in the record's container" +
-                      didYouMean(feature, names));
+                      didYouMean(feature, names) + thereAre(names));
 }
 
 void writeWords(SharedWriter& self, Timestamp stamp, const std::string& feature,
@@ -78,12 +78,13 @@ void writeValues(SharedWriter& self, Timestamp stamp, const std::string& feature
     throw py::value_error(self.file + ": made without a container, so it can't know what values " +
                           "of " + feature +
                           " are as words; expected RecordWriter(file, container)");
+  needFeature(self, feature);
   const SensorData* data = nullptr;
   {
     const Gate::Together visit(*self.container->gate);
-    data = self.container->container->findExactly(parseSensorId(feature));
+    const SensorContainer& container = *self.container->container;
+    data = container.findExactly(featureIdOf(feature, &container));
   }
-  if (data == nullptr) throw py::key_error("there is no feature " + feature);
   write(self, stamp, feature, encode(*data, values));
 }
 

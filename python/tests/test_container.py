@@ -172,6 +172,26 @@ class Container(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "field region: the grid must have cells of positive, finite size"):
                 ortung.FieldRegion(*options)
 
+    def test_names_of_features_are_told_with_what_there_is(self):
+        class Sensor:
+            sigma = 1.0
+
+            def expected(self, poses):
+                return poses[:, :1]
+
+        container = ortung.SensorContainer()
+        for call in (lambda: container.add_scalar("scan"), lambda: container.add_sensor("scan", Sensor())):
+            with self.assertRaisesRegex(ValueError, "^found 'scan': a feature's name is model/type/feature, with two '/'$"):
+                call()
+        with self.assertRaisesRegex(ValueError, "^found 'scan': .*; there is none$"):
+            container.set_values(0, "scan", 1.0)
+        container.add_scalar("a/b/wall")
+        for call in (lambda: container.set_values(0, "scan", 1.0), lambda: container.set(0, "scan", [1])):
+            with self.assertRaisesRegex(ValueError, "^found 'scan': .*, with two '/'; there are a/b/wall$"):
+                call()
+        with self.assertRaisesRegex(KeyError, "there is no feature a/b/wal .did you mean 'a/b/wall'..; there are a/b/wall"):
+            container.get("a/b/wal")
+
     def test_shipped_files_are_found(self):
         robot = ortung.Robot(ortung.shipped_file("robots", "pioneer.toml"))
         self.assertTrue(any("/LRF/" in name for name in robot.container.features))

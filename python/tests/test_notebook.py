@@ -161,6 +161,25 @@ class Notebook(unittest.TestCase):
                         int((truth[0] - left) / (right - left) * columns)]
         self.assertLess(abs(here - cell), 0.5)
 
+    def test_maps_of_what_is_not_there_name_what_is(self):
+        here = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}")
+        next(here)
+        np.testing.assert_array_equal(here.probability_map("*/LRF/*"), here.probability_map(["*/LRF/*"]))
+        scan = next(one for one in here.container.features if "/LRF/" in one)
+        for pattern in ("*/lidar/*", ["*/lidar/*"], ["*/odometry/*"]):
+            text = pattern if isinstance(pattern, str) else pattern[0]
+            with self.assertRaises(KeyError) as caught:
+                here.probability_map(pattern)
+            self.assertIn(f"no feature that localizes fits '{text}'; there are {scan}", str(caught.exception))
+        with self.assertRaisesRegex(ValueError, "'scan' is not model/type/feature.*; there are .*" + scan):
+            here.probability_map("scan")
+        with self.assertRaisesRegex(ValueError, "features is empty"):
+            here.probability_map([])
+        with self.assertRaisesRegex(TypeError, r"features is 3, expected a text \(str\) or a list of any length, each a text"):
+            here.probability_map(3)
+        with self.assertRaisesRegex(KeyError, f"there is no feature a/b/c; there are .*{scan}"):
+            here.expectation_map("a/b/c")
+
     def test_threads_take_turns_at_a_localization(self):
         def estimates(others):
             here = ortung.Localization(ROBOT, self.tables, source=f"record:{self.record}", seed=3)
