@@ -1,5 +1,6 @@
 """Base classes of environments: those of Gymnasium and PettingZoo if they are installed, else small ones
 with the same behaviour."""
+import difflib
 import enum
 import os
 
@@ -166,13 +167,26 @@ def describe(env_id):
     """Returns the description of an environment. Raises ValueError for an unknown id."""
     known = {one["id"]: one for one in learning().environments()}
     if env_id not in known:
-        raise ValueError(f"there is no environment '{env_id}', expected {', '.join(known)}")
+        near = difflib.get_close_matches(str(env_id), known, 1)
+        meant = f" (did you mean '{near[0]}'?)" if near else ""
+        raise ValueError(f"there is no environment '{env_id}', expected {', '.join(known)}{meant}")
     return known[env_id]
 
 
 def box_of(quantities):
     return Box(np.array([q[2] for q in quantities], np.float32),
                np.array([q[3] for q in quantities], np.float32), dtype=np.float32)
+
+
+def autoreset_mode(env_id, autoreset):
+    """Returns the AutoresetMode of one, or of its value. Raises ValueError that names those that there are."""
+    try:
+        return AutoresetMode(autoreset)
+    except ValueError:
+        names = [mode.value for mode in AutoresetMode]
+        near = difflib.get_close_matches(str(autoreset), names, 1, 0.5)
+        names.sort(key=lambda name: name not in near)
+        raise ValueError(f"{env_id}: autoreset is {autoreset!r}, expected {', '.join(map(repr, names))}") from None
 
 
 def check_seed(env_id, seed):

@@ -2,8 +2,8 @@
 import numpy as np
 
 from ._base import (
-    AutoresetMode, GymEnv, GymVectorEnv, batch_space, box_of, check_action, check_seed, describe,
-    gymnasium, learning,
+    GymEnv, GymVectorEnv, autoreset_mode, batch_space, box_of, check_action, check_seed, describe, gymnasium,
+    learning,
 )
 
 
@@ -112,7 +112,7 @@ class VectorEnv(GymVectorEnv):
         if render_mode is not None:
             raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
         info = _single(id)
-        self._mode = autoreset if isinstance(autoreset, AutoresetMode) else AutoresetMode(autoreset)
+        self._mode = autoreset_mode(id, autoreset)
         self.id = id
         self.num_envs = num_envs
         self.metadata = {**type(self).metadata, "name": id, "autoreset_mode": self._mode}

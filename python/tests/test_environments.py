@@ -308,6 +308,15 @@ class BadInput(unittest.TestCase):
         self.fails(ValueError, "3 seeds|expected 2",
                    lambda: ortung.make_vec("goalkeeper-v0", 2).reset(seed=[1, 2, 3]))
         self.fails(ValueError, "episodes is 0", lambda: ortung.make_vec("goalkeeper-v0", 0))
+        self.fails(ortung.PluginError, "striker is 'shoot', expected shot, dribble, |roll|yardstick-v1|(did you mean 'shot'?)",
+                   lambda: ortung.make("goalkeeper-v0", striker="shoot"))
+        self.fails(ortung.PluginError, "keeper is 'blokcing', expected blocking, |still|, or a player's text",
+                   lambda: ortung.make("striker-v0", keeper="blokcing"))
+        self.fails(ortung.ConfigError, "observation is 'thruth'|features, truth",
+                   lambda: ortung.make("striker-v0", observation="thruth"))
+        self.fails(ValueError, "did you mean 'goalkeeper-v0'", lambda: ortung.make("goalkeper-v0"))
+        self.fails(ValueError, "autoreset is 'same_step', expected 'SameStep', 'NextStep', 'Disabled'",
+                   lambda: ortung.make_vec("goalkeeper-v0", 2, autoreset="same_step"))
         self.fails(ValueError, "pictures", lambda: ortung.make("goalkeeper-v0", render_mode="human"))
 
     def test_options_of_reset_hold_from_then_on(self):

@@ -263,7 +263,10 @@ TEST(Batch, BadOptionsAreRefusedByName) {
   };
   EXPECT_EQ(make("goalkeeper-v9", {}),
             "there is no environment 'goalkeeper-v9', expected goalkeeper-v0, striker-v0, "
-            "keeper-vs-striker-v0, localize-and-score-v0");
+            "keeper-vs-striker-v0, localize-and-score-v0 (did you mean 'goalkeeper-v0'?)");
+  EXPECT_EQ(make("striker-v0", {{"keeper", {std::string("blokcing")}}})
+                .find("keeper is 'blokcing', expected blocking, "),
+            0U);
   EXPECT_NE(make("goalkeeper-v0", {{"strikr", {std::string("roll")}}}).find("strikr"),
             std::string::npos);
   const std::string kind = make("goalkeeper-v0", {{"striker", {std::string("striker:kind=lob")}}});

@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "Observation.hpp"
+#include "ortung/base/Nearest.hpp"
+#include "ortung/benchmark/GoalMatrix.hpp"
 
 namespace ortung::learning {
 namespace {
@@ -45,15 +47,22 @@ std::vector<OptionHelp> optionsOf(std::vector<OptionHelp> own, const char* obser
   return own;
 }
 
+/// Names of the players that ship, and that others may be given.
+std::string valuesOf(std::span<const std::string_view> names) {
+  std::string all;
+  for (const std::string_view name : names) all += std::string(name) + "|";
+  return all + "a player's text";
+}
+
 std::vector<EnvironmentInfo> makeAll() {
   const std::vector<Quantity> keeps = {kForwardAction, kTurnAction};
   const std::vector<Quantity> strikes = {kForwardAction, kTurnAction, kKickAction};
   const OptionHelp keeperSpeed{"keeper_speed_m_s", "m/s", "1.5", "speed of the action forward = 1"};
   const OptionHelp strikerSpeed{"striker_speed_m_s", "m/s", "1", "speed of the action forward = 1"};
-  const OptionHelp keeper{"keeper", "a policy, or a player's text", "blocking", "the keeper"};
+  const OptionHelp keeper{"keeper", valuesOf(goalkeeperPolicies()), "blocking", "the keeper"};
   OptionHelp stillKeeper = keeper;
   stillKeeper.fallback = "still";
-  const OptionHelp striker{"striker", "a kind, or a player's text", "yardstick-v1", "the striker"};
+  const OptionHelp striker{"striker", valuesOf(strikerKinds()), "yardstick-v1", "the striker"};
   const OptionHelp start{"start", "near|anywhere", "near",
                          "whether MCL gets the approximate start pose"};
   return {{"goalkeeper-v0",
@@ -99,12 +108,14 @@ std::span<const EnvironmentInfo> environments() { return all(); }
 
 const EnvironmentInfo& environment(std::string_view id) {
   std::string known;
+  std::vector<std::string> ids;
   for (const EnvironmentInfo& one : all()) {
     if (one.id == id) return one;
     known += (known.empty() ? "" : ", ") + one.id;
+    ids.push_back(one.id);
   }
   throw std::invalid_argument("there is no environment '" + std::string(id) + "', expected " +
-                              known);
+                              known + didYouMean(id, ids));
 }
 
 }  // namespace ortung::learning

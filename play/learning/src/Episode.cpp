@@ -1,10 +1,14 @@
 #include "Episode.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
+#include "ortung/base/Nearest.hpp"
 #include "ortung/benchmark/GoalMatrix.hpp"
 #include "ortung/core/ShippedFiles.hpp"
 #include "ortung/robot/RobotFile.hpp"
@@ -41,6 +45,32 @@ PlayerControl::Config supervise(std::string& problem, std::shared_ptr<TableStore
   return config;
 }
 
+/// Returns the names with the nearest one first, and a question if one is near.
+std::string nearestFirst(const std::string& word, std::span<const std::string_view> names) {
+  std::vector<std::string> words(names.begin(), names.end());
+  const std::string meant = nearest(word, words);
+  if (!meant.empty())
+    std::rotate(words.begin(), std::find(words.begin(), words.end(), meant), words.end());
+  std::string all;
+  for (const std::string& one : words) all += (all.empty() ? "" : ", ") + one;
+  return all + (meant.empty() ? "" : " (did you mean '" + meant + "'?)");
+}
+
+/// Makes the player of an option. An unknown one is told with the names that the option has.
+std::unique_ptr<Player> entrantPlayer(PluginFactory& factory, const PlayerWish& wish,
+                                      std::string_view name) {
+  try {
+    return factory.make<Player>(wish.plugin, wish.options);
+  } catch (const PluginError& error) {
+    const std::string text = error.what();
+    if (text.find("there is no plugin '" + wish.plugin + "'") == text.npos) throw;
+    const bool keeps = name == kBlue;
+    throw PluginError((keeps ? "keeper is '" : "striker is '") + wish.plugin + "', expected " +
+                      nearestFirst(wish.plugin, keeps ? goalkeeperPolicies() : strikerKinds()) +
+                      ", or a player's text (PLUGIN:key=value): " + text);
+  }
+}
+
 }  // namespace
 
 Field::Field()
@@ -61,7 +91,7 @@ Stand::Entrant& Stand::entrant(const std::string& text, const char* name) {
   if (!wish.team.empty() || !wish.name.empty() || wish.start)
     throw ConfigError("player '" + text +
                       "': the environment sets team, name and start, so they can't be given");
-  const auto player = makeGoalPlayer(factory, wish);
+  const auto player = entrantPlayer(factory, wish, name);
   const auto file = wish.robot.empty() ? player->robotFile() : wish.robot;
   if (file.empty())
     throw ConfigError("player '" + text +
