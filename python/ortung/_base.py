@@ -189,6 +189,28 @@ def autoreset_mode(env_id, autoreset):
         raise ValueError(f"{env_id}: autoreset is {autoreset!r}, expected {', '.join(map(repr, names))}") from None
 
 
+def record_into(batch, file):
+    """Lets a batch of one episode write records. Returns whether it does. Raises TypeError for what names no file."""
+    if file is None:
+        return False
+    if not isinstance(file, (str, os.PathLike)):
+        raise TypeError(f"{batch.id}: record is {file!r}, expected the name of a file, or None")
+    batch.record(0, file)
+    return True
+
+
+def end_record(batch, records):
+    """Ends the record of an episode that is given up. Arrays that somebody has may keep the batch itself."""
+    if batch is not None and records:
+        batch.record(0, "")
+
+
+def refuse_pictures(env_id, render_mode, instead):
+    """Raises ValueError for any render_mode, which says what there is instead."""
+    if render_mode is not None:
+        raise ValueError(f"{env_id}: render_mode is {render_mode!r}, but environments draw no pictures; {instead}")
+
+
 def check_seed(env_id, seed):
     """Returns the seed as an int of 64 bits, or None. Raises TypeError, ValueError for other values."""
     if seed is None:

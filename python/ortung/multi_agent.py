@@ -1,17 +1,20 @@
 """Environments by the rules of PettingZoo's parallel API."""
 import numpy as np
 
-from ._base import Box, ZooParallelEnv, box_of, check_action, check_seed, describe, learning
+from ._base import (
+    Box, ZooParallelEnv, box_of, check_action, check_seed, describe, end_record, learning, record_into, refuse_pictures,
+)
 
 
 class ParallelEnv(ZooParallelEnv):
-    """An environment in which all agents act at the same time, until the episode ends for all."""
+    """An environment in which all agents act at the same time, until the episode ends for all.
+
+    record: file of a record of what the first agent's robot reads, as of Env."""
 
     metadata = {"render_modes": [], "name": "keeper-vs-striker-v0", "is_parallelizable": True}
 
-    def __init__(self, id="keeper-vs-striker-v0", *, render_mode=None, **options):
-        if render_mode is not None:
-            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+    def __init__(self, id="keeper-vs-striker-v0", *, render_mode=None, record=None, **options):
+        refuse_pictures(id, render_mode, "record=FILE writes records of episodes, which `ortung view FILE` shows")
         info = describe(id)
         self.id = id
         self.render_mode = None
@@ -22,6 +25,7 @@ class ParallelEnv(ZooParallelEnv):
         self.action_spaces = {a: box_of(info["actions"][a]) for a in self.possible_agents}
         self.state_space = Box(-1000.0, 1000.0, (12,), np.float32)
         self._batch = learning().Batch(id, options, autoreset=learning().Autoreset.DISABLED)
+        self._records = record_into(self._batch, record)
         width = max(space.shape[0] for space in self.action_spaces.values())
         self._actions = np.zeros((1, len(self.possible_agents), width), np.float32)
         self._is_seeded = False
@@ -96,6 +100,7 @@ class ParallelEnv(ZooParallelEnv):
 
     def close(self):
         """Gives the episode up; nothing can be called afterwards."""
+        end_record(self._batch, self._records)
         self._batch = None
         self.agents = []
 

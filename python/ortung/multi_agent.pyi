@@ -1,4 +1,5 @@
-from typing import Any, Dict, List, Optional, Tuple
+import os
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -9,7 +10,14 @@ class ParallelEnv(_ParallelEnv[str, npt.NDArray[np.float32], npt.ArrayLike]):  #
     metadata: Dict[str, Any]
     agents: List[str]
     possible_agents: List[str]
-    def __init__(self, id: str = "keeper-vs-striker-v0", *, render_mode: None = None, **options: Any) -> None: ...
+    def __init__(
+        self,
+        id: str = "keeper-vs-striker-v0",
+        *,
+        render_mode: None = None,
+        record: Union[str, "os.PathLike[str]", None] = None,
+        **options: Any,
+    ) -> None: ...
     def observation_space(self, agent: str) -> Any: ...
     def action_space(self, agent: str) -> Any: ...
     def reset(

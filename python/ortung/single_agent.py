@@ -2,8 +2,8 @@
 import numpy as np
 
 from ._base import (
-    GymEnv, GymVectorEnv, autoreset_mode, batch_space, box_of, check_action, check_seed, describe, gymnasium,
-    learning,
+    GymEnv, GymVectorEnv, autoreset_mode, batch_space, box_of, check_action, check_seed, describe, end_record,
+    gymnasium, learning, record_into, refuse_pictures,
 )
 
 
@@ -27,13 +27,16 @@ class Env(GymEnv):
     the seed and its number alone. reset() without a seed begins the next one; if there was no seed
     yet, the seed is random. reset(options={...}) overrides options that the environment was made with,
     for all further episodes.
+
+    record: file of a record of what the agent's robot reads, with its true pose, which `ortung view FILE` shows:
+    it has the latest episode, or each one its own if the name has "{seed}" and "{number}". It is whole when the
+    episode is over.
     """
 
     metadata = {"render_modes": [], "render_fps": 10}
 
-    def __init__(self, id="goalkeeper-v0", *, render_mode=None, **options):
-        if render_mode is not None:
-            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+    def __init__(self, id="goalkeeper-v0", *, render_mode=None, record=None, **options):
+        refuse_pictures(id, render_mode, "record=FILE writes records of episodes, which `ortung view FILE` shows")
         info = _single(id)
         self.id = id
         self.render_mode = None
@@ -42,6 +45,7 @@ class Env(GymEnv):
         self.action_space = box_of(info["actions"][info["agents"][0]])
         self._shape = self.action_space.shape
         self._batch = learning().Batch(id, options, autoreset=learning().Autoreset.DISABLED)
+        self._records = record_into(self._batch, record)
         self._is_seeded = False
         self._is_running = False
 
@@ -93,6 +97,7 @@ class Env(GymEnv):
 
     def close(self):
         """Gives the episode up; nothing can be called afterwards."""
+        end_record(self._batch, self._records)
         self._batch = None
         self._is_running = False
 
@@ -109,8 +114,8 @@ class VectorEnv(GymVectorEnv):
 
     def __init__(self, id="goalkeeper-v0", num_envs=1, *, threads=0, autoreset="NextStep",
                  copy=True, render_mode=None, **options):
-        if render_mode is not None:
-            raise ValueError(f"{id}: render_mode is {render_mode!r}, but there are no pictures")
+        refuse_pictures(id, render_mode,
+                        "ortung.make() has record=FILE for records of episodes, which `ortung view FILE` shows")
         info = _single(id)
         self._mode = autoreset_mode(id, autoreset)
         self.id = id
@@ -217,12 +222,26 @@ class VectorEnv(GymVectorEnv):
 
 
 def make(id, **options):
-    """Makes an Env of one of Ortung's environments, e.g. make("striker-v0", keeper="intercepting")."""
+    """Makes an Env of one of Ortung's environments, e.g. make("striker-v0", keeper="intercepting").
+
+    id: "goalkeeper-v0", "striker-v0" or "localize-and-score-v0"; options: those of the environment, such as
+    striker="shot", observation="truth", duration_s=5.0. ortung.environments() lists ids, options with their values
+    and defaults, actions and observations. record=FILE writes records of episodes, for `ortung view FILE`; "{seed}"
+    and "{number}" in its name stand for those of the episode. Raises ValueError for an unknown id, ConfigError and
+    PluginError for options. See docs/learning.md.
+    """
     return Env(id, **options)
 
 
 def make_vec(id, num_envs=1, **options):
-    """Makes a VectorEnv of one of Ortung's environments."""
+    """Makes a VectorEnv: num_envs environments of one id, which one call steps, (N, ...) arrays at a time.
+
+    threads: number of threads; 0: as many as the machine has (episodes do not depend on it). autoreset: when an episode
+    that is over begins anew: "NextStep", "SameStep", or "Disabled" (by reset() with options={"reset_mask": flags}).
+    copy: whether step() returns copies; False: views of arrays that the next call changes, which is faster. The other
+    options are those of the environment, as make() takes them: ortung.environments() lists them, with ids, actions and
+    observations. Raises ValueError for an unknown id, ConfigError and PluginError for options.
+    """
     return VectorEnv(id, num_envs, **options)
 
 

@@ -1,3 +1,4 @@
+import os
 from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -8,7 +9,14 @@ from gymnasium.vector import VectorEnv as _VectorEnv  # type: ignore[import]
 class Env(_Env[npt.NDArray[np.float32], npt.ArrayLike]):  # type: ignore[misc]
     id: str
     metadata: Dict[str, Any]
-    def __init__(self, id: str = "goalkeeper-v0", *, render_mode: None = None, **options: Any) -> None: ...
+    def __init__(
+        self,
+        id: str = "goalkeeper-v0",
+        *,
+        render_mode: None = None,
+        record: Union[str, "os.PathLike[str]", None] = None,
+        **options: Any,
+    ) -> None: ...
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple[npt.NDArray[np.float32], Dict[str, Any]]: ...

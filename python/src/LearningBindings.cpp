@@ -1,4 +1,7 @@
+#include <pybind11/stl/filesystem.h>
+
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -206,6 +209,18 @@ void bindBatch(py::module_& module) {
           },
           py::arg("options"), py::arg("episode") = py::none(),
           "Changes options of episodes that begin from now on, or of one of them.")
+      .def(
+          "record",
+          [](SharedBatch& self, std::size_t episode, const std::filesystem::path& file) {
+            if (episode >= self.batch->size()) throw py::index_error("there is no such episode");
+            alone(self.gate, [&] { self.batch->record(episode, file); });
+          },
+          py::arg("episode"), py::arg("file"),
+          "Records what the robot of the first agent reads, with its true pose, in each episode "
+          "that begins in a place from now on, for `ortung view`. file: '{seed}' and '{number}' in "
+          "it stand for those of the episode; without them it has the latest one; '': nothing is "
+          "recorded. An episode whose file can't be written, or holds something else than a "
+          "record, does not begin: RuntimeError.")
       .def("__len__", [](const SharedBatch& self) { return self.batch->size(); })
       .def_property_readonly(
           "id", [](const SharedBatch& self) { return self.batch->info().id; },

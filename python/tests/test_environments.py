@@ -1,5 +1,8 @@
 import multiprocessing
+import os
+import pathlib
 import sys
+import tempfile
 import threading
 import unittest
 
@@ -317,13 +320,116 @@ class BadInput(unittest.TestCase):
         self.fails(ValueError, "did you mean 'goalkeeper-v0'", lambda: ortung.make("goalkeper-v0"))
         self.fails(ValueError, "autoreset is 'same_step', expected 'SameStep', 'NextStep', 'Disabled'",
                    lambda: ortung.make_vec("goalkeeper-v0", 2, autoreset="same_step"))
-        self.fails(ValueError, "pictures", lambda: ortung.make("goalkeeper-v0", render_mode="human"))
+        for make in (ortung.make, ortung.make_vec):
+            self.fails(ValueError, "render_mode is 'rgb_array'|no pictures|record=FILE|`ortung view FILE`",
+                       lambda: make("goalkeeper-v0", render_mode="rgb_array"))
+        self.fails(ValueError, "no pictures|record=FILE", lambda: ortung.parallel_env(render_mode="human"))
 
     def test_options_of_reset_hold_from_then_on(self):
         env = ortung.make("goalkeeper-v0")
         env.reset(seed=4, options={"striker": "roll"})
         roll = ortung.make("goalkeeper-v0", striker="roll")
         self.assertTrue(np.array_equal(env.reset(seed=9)[0], roll.reset(seed=9)[0]))
+
+
+class Records(unittest.TestCase):
+    def play(self, env, seed=None):
+        env.reset(seed=seed)
+        done, states = False, [env.state()]
+        while not done:
+            _, _, terminated, truncated, _ = env.step(np.array([0.4, -0.1]))
+            done = terminated or truncated
+            states.append(env.state())
+        return states
+
+    def truth(self, file, robot):
+        """Returns times [s], true poses, and where the ball was seen from there, of a record."""
+        container = ortung.Robot(ortung.shipped_file("robots", robot)).container
+        times, poses, balls = [], [], []
+        for stamp, feature, words in ortung.readings(f"record:{file}"):
+            container.set(stamp, feature, words)
+            if "/groundTruth/" in feature:
+                times.append(1e-6 * stamp)
+                poses.append(container.get(feature))
+            if feature.endswith("/ball") and len(container.get(feature)):
+                balls.append((1e-6 * stamp, *container.get(feature)[0][:2]))
+        return np.array(times), np.array(poses), balls
+
+    def test_have_the_truth_of_their_episode(self):
+        with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
+            pattern = pathlib.Path(folder, "keeper-{seed}-{number}.rec")
+            env = ortung.make("goalkeeper-v0", striker="roll", record=pattern)
+            plain = ortung.make("goalkeeper-v0", striker="roll")
+            for number, seed in enumerate((7, None)):
+                states = self.play(env, seed)
+                np.testing.assert_array_equal(states, self.play(plain, seed))  # who looks on changes nothing
+                file = pathlib.Path(folder, f"keeper-7-{number}.rec")
+                times, poses, balls = self.truth(file, "goalkeeper.toml")
+                self.assertLess(times[0], 0.05)
+                self.assertGreater(times[-1], states[-1][0] - 0.05)
+                compared = 0
+                for state in states:  # each 0.1 s: time, ball x, y, its velocity, keeper x, y, heading
+                    for i in np.flatnonzero(np.abs(times - state[0]) < 1e-4):
+                        np.testing.assert_allclose(poses[i][:2], state[5:7], atol=2e-3)
+                        self.assertLess(abs(np.angle(np.exp(1j * (poses[i][2] - state[7])))), 2e-3)
+                        compared += 1
+                self.assertGreater(compared, len(states) // 2)
+                self.assertGreater(len(balls), len(states) // 2)
+                f2000 = ortung.World(ortung.shipped_file("fields", "f2000.toml"))
+                self.assertEqual(ortung.readings(f"record:{file}").world, f2000.fingerprint)
+
+    def test_without_places_for_numbers_have_the_latest_episode(self):
+        with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
+            file = pathlib.Path(folder, "keeper.rec")
+            env = ortung.make("goalkeeper-v0", striker="roll", record=str(file))
+            self.play(env, 3)
+            first = file.read_bytes()
+            self.play(env)
+            second = file.read_bytes()
+            self.assertNotEqual(first, second)
+            self.play(env, 3)
+            self.assertEqual(first, file.read_bytes())
+            env.reset()
+            for _ in range(5):
+                env.step(np.zeros(2))
+            env.close()  # what was played so far is there
+            self.assertGreater(self.truth(file, "goalkeeper.toml")[0][-1], 0.4)
+            zoo = ortung.parallel_env(record=file, duration_s=1.0)
+            zoo.reset(seed=1)
+            while zoo.agents:
+                zoo.step({name: np.zeros(zoo.action_space(name).shape, np.float32) for name in zoo.agents})
+            self.assertGreater(self.truth(file, "goalkeeper.toml")[0][-1], 0.9)  # the keeper's
+
+    def test_replace_records_only(self):
+        with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
+            notes = pathlib.Path(folder, "notes.txt")
+            notes.write_text("mine\n")
+            with self.assertRaisesRegex(RuntimeError, "notes.txt: is there already, and is no record"):
+                ortung.make("goalkeeper-v0", record=notes).reset(seed=1)
+            self.assertEqual(notes.read_text(), "mine\n")
+            with self.assertRaisesRegex(RuntimeError, "nowhere"):
+                ortung.make("goalkeeper-v0", record=pathlib.Path(folder, "nowhere", "a.rec")).reset(seed=1)
+            with self.assertRaisesRegex(TypeError, "record is 3, expected the name of a file"):
+                ortung.make("goalkeeper-v0", record=3)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "there is no fork")
+    def test_of_a_forked_process_are_left_to_the_first_one(self):
+        with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
+            alone, forked = pathlib.Path(folder, "alone.rec"), pathlib.Path(folder, "forked.rec")
+            for file in (alone, forked):
+                env = ortung.make("goalkeeper-v0", striker="roll", record=file)
+                env.reset(seed=4)
+                for step in range(8):
+                    if step == 4 and file == forked:
+                        child = os.fork()
+                        if child == 0:
+                            env.step(np.ones(2))
+                            env.close()
+                            os._exit(0)
+                        self.assertEqual(os.waitpid(child, 0)[1], 0)
+                    env.step(np.zeros(2))
+                env.close()
+            self.assertEqual(alone.read_bytes(), forked.read_bytes())
 
 
 class Learner(unittest.TestCase):

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <string>
 
+#include "Files.hpp"
 #include "Played.hpp"
 #include "ortung/benchmark/GoalEpisodes.hpp"
 #include "ortung/benchmark/GoalMatrix.hpp"
@@ -12,6 +15,8 @@
 namespace ortung::learning {
 namespace {
 
+using ortung::test::readBytes;
+using ortung::test::TemporaryFolder;
 using test::heuristicActions;
 using test::playedHash;
 
@@ -255,6 +260,46 @@ TEST(Batch, TheEnvironmentNamesAndPlacesItsPlayers) {
               }).find("the environment sets team, name and start"),
               std::string::npos)
         << said;
+}
+
+TEST(Batch, RecordsOfAPlaceAreThoseOfItsSeedAndNumberAlone) {
+  const TemporaryFolder folder;
+  const auto play = [&](std::uint64_t seed, std::size_t episodes, std::size_t place,
+                        const std::string& name) {
+    Batch batch("goalkeeper-v0", {}, {.episodes = episodes, .threads = 2, .seed = seed});
+    batch.record(place, folder.path() / (name + "-{seed}-{number}.rec"));
+    batch.reset();  // the present episodes are number 0
+    while (batch.numbers()[place] < 3) batch.step(heuristicActions(batch));
+  };
+  play(21, 1, 0, "one");
+  play(20, 4, 1, "many");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "one-21-0.rec"));
+  for (const char* end : {"-21-1.rec", "-21-2.rec"}) {
+    const std::string record = readBytes(folder.path() / (std::string("one") + end));
+    EXPECT_GT(record.size(), 500U);
+    EXPECT_EQ(readBytes(folder.path() / (std::string("many") + end)), record);
+  }
+  EXPECT_NE(readBytes(folder.path() / "one-21-1.rec"), readBytes(folder.path() / "one-21-2.rec"));
+}
+
+TEST(Batch, RecordsDontTouchAnEpisodeAndAnEmptyNameEndsThem) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "striker.rec";
+  const auto hashOf = [&](bool records) {
+    Batch batch("striker-v0", {}, {.episodes = 2, .seed = 8});
+    if (records) batch.record(1, file);
+    return playedHash(batch, 150);
+  };
+  EXPECT_EQ(hashOf(true), hashOf(false));
+  Batch batch("striker-v0", {}, {.episodes = 1, .seed = 8});
+  batch.record(0, file);
+  batch.reset();
+  batch.step(heuristicActions(batch));
+  batch.record(0, {});
+  const std::string whole = readBytes(file);
+  batch.step(heuristicActions(batch));
+  batch.reset();
+  EXPECT_EQ(readBytes(file), whole);
 }
 
 TEST(Batch, BadOptionsAreRefusedByName) {

@@ -28,6 +28,7 @@ struct Slot {
   std::shared_ptr<const Settings> settings;
   std::uint64_t seed = 0;
   std::uint64_t number = 0;
+  std::filesystem::path record;
   std::unique_ptr<Episode> episode;
 };
 
@@ -138,7 +139,8 @@ void Batch::Parts::clear(std::size_t i) {
 void Batch::Parts::begin(Stand& stand, std::size_t i) {
   Slot& slot = slots[i];
   slot.episode.reset();
-  slot.episode = std::make_unique<Episode>(stand, slot.settings, slot.seed, slot.number);
+  slot.episode =
+      std::make_unique<Episode>(stand, slot.settings, slot.seed, slot.number, slot.record);
   seeds[i] = slot.seed;
   numbers[i] = slot.number;
   look(i);
@@ -258,6 +260,12 @@ void Batch::setOptions(std::size_t episode, const Options& options) {
   for (const auto& [key, value] : options) all.insert_or_assign(key, value);
   slot.settings = parts_->read(episode, all);
   slot.options = std::move(all);
+}
+
+void Batch::record(std::size_t episode, const std::filesystem::path& file) {
+  Slot& slot = parts_->slots.at(episode);
+  slot.record = file;
+  if (slot.episode) slot.episode->endRecord();
 }
 
 void Batch::step(std::span<const float> actions) {

@@ -126,7 +126,7 @@ void Stand::check(const Settings& settings) {
 }
 
 Episode::Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::uint64_t seed,
-                 std::uint64_t number)
+                 std::uint64_t number, const std::filesystem::path& record)
     : stand_(stand),
       settings_(std::move(settings)),
       seed_(seed),
@@ -146,6 +146,7 @@ Episode::Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::ui
   seat(keeps, *keeper_, s.keeperIsAgent(), false);
   seat(strikes, *striker_, s.strikerIsAgent(), true);
   checkPlayers();
+  if (!record.empty()) beginRecord(record);
   sense();
 }
 
@@ -196,9 +197,16 @@ void Episode::checkPlayers() const {
                            std::to_string(seed_) + ": " + problem_);
 }
 
+void Episode::beginRecord(const std::filesystem::path& file) {
+  const SimRobot& robot = settings_->keeperIsAgent() ? *keeper_ : *striker_;
+  record_ = std::make_unique<EpisodeRecord>(EpisodeRecord::fileOf(file, seed_, number_),
+                                            stand_.field.world->fingerprint(), robot.container());
+}
+
 void Episode::sense() {
   simulation_.sense();
   for (Agent* agent : agents_) agent->look(simulation_.now());
+  if (record_) record_->write(simulation_.readings(settings_->keeperIsAgent() ? 0 : 1));
 }
 
 void Episode::step(std::span<const float> actions, std::size_t width) {
@@ -214,6 +222,13 @@ void Episode::step(std::span<const float> actions, std::size_t width) {
     sense();
   }
   if (++steps_ >= settings_->steps && !isOver()) ending_ = Ending::kTime;
+  if (isOver()) endRecord();
+}
+
+void Episode::endRecord() {
+  if (!record_) return;
+  record_->end();
+  record_.reset();
 }
 
 void Episode::observe(std::span<float> out) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Agent.hpp"
+#include "EpisodeRecord.hpp"
 #include "Settings.hpp"
 #include "ortung/benchmark/GoalJudge.hpp"
 #include "ortung/learning/Batch.hpp"
@@ -59,9 +60,10 @@ class Stand {
 class Episode {
  public:
   /// @param stand borrowed
+  /// @param record file for the readings of the first agent's robot; "": they are not recorded
   /// @throws ConfigError, PluginError, std::runtime_error for players that can't play
   Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::uint64_t seed,
-          std::uint64_t number);
+          std::uint64_t number, const std::filesystem::path& record = {});
   ~Episode();
   Episode(const Episode&) = delete;
   Episode& operator=(const Episode&) = delete;
@@ -69,6 +71,8 @@ class Episode {
   /// Plays one step. @param actions shape (agents, width) @throws std::runtime_error if a player
   /// was stopped
   void step(std::span<const float> actions, std::size_t width);
+  /// Ends the record, if there is one. @throws std::runtime_error
+  void endRecord();
   bool isOver() const { return ending_ != Ending::kNone; }
   Ending ending() const { return ending_; }
   /// Writes the observations. @param out shape (agents, observation)
@@ -84,6 +88,7 @@ class Episode {
   void placeStriker();
   bool hasPlaced(const Pose2& striker, const Pose2& ball);
   void seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker);
+  void beginRecord(const std::filesystem::path& file);
   void sense();
   void checkPlayers() const;
   Random stream(std::uint64_t which) const { return Random(seed_, 4 * number_ + which); }
@@ -101,6 +106,7 @@ class Episode {
   GoalJudge judge_;
   Ending ending_ = Ending::kNone;
   int steps_ = 0;
+  std::unique_ptr<EpisodeRecord> record_;  ///< null: it is not recorded, or has ended
 };
 
 }  // namespace ortung::learning

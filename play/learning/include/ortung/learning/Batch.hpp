@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,6 +65,14 @@ class ORTUNG_API Batch {
   /// ConfigError, PluginError; then nothing has changed
   void setOptions(const Options& options);
   void setOptions(std::size_t episode, const Options& options);
+
+  /// Records what the robot of the first agent reads, with its true pose, in each episode that
+  /// begins in a place from now on. The record is whole when the episode is over. A record that is
+  /// being written ends.
+  /// @param file in which "{seed}" and "{number}" stand for those of the episode; without them it
+  ///   has the latest episode. "": nothing is recorded. If it can't be written, or holds something
+  ///   else than a record, the episode can't begin: std::runtime_error
+  void record(std::size_t episode, const std::filesystem::path& file);
 
   /// Steps all episodes by 0.1 s (option `action_s`).
   /// @param actions shape (N, agents, actionSize); numbers are clamped to [-1, 1]
