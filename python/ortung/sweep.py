@@ -64,7 +64,14 @@ def table_text(folder: str, by: Sequence[str] = (), figures: Sequence[str] = ())
 
 
 def table(folder: str, by: Sequence[str] = (), figures: Sequence[str] = ()) -> List[Dict[str, str]]:
-    """Returns the rows of the table of what is there, as csv.DictReader does."""
+    """Returns the rows of the table of what is there, as csv.DictReader does.
+
+    folder: that of the sweep. by: keys of the sweep's file whose values get rows of their own, the means over all others;
+    () for all but "seed". figures: names of numbers in what the tasks' command writes as JSON, as figures() returns
+    it, with a dot for each step inside, e.g. "position_rmse_m", "at_corrections.nees_mean" (`ortung eval`) or
+    "cells.0.scoring.value" (the benchmark); () for the usual ones of the command. A name that is not there has the
+    value "" (no number).
+    """
     with tempfile.TemporaryDirectory(prefix="ortung-sweep-") as scratch:
         name = os.path.join(scratch, "table.csv")
         _ortung("sweep", "table", folder, "--csv", name, *_options(by, figures))

@@ -73,6 +73,17 @@ class Arguments(unittest.TestCase):
         self.refused("world(): world is 3, expected a World, or the file of one", ortung.draw.world, 3)
         self.assertEqual(list(inspect.signature(ortung.draw.world).parameters), ["world", "axes"])
 
+    def test_are_told_by_the_help(self):
+        for function, words in ((ortung.make, ("record", "ortung.environments()", "docs/learning.md")),
+                                (ortung.make_vec, ("threads", "autoreset", "copy", "NextStep", "ortung.environments()")),
+                                (ortung.evaluate, ("start: 'global'", "'truth'", "(x, y, theta)", "progress: a function", "any_world")),
+                                (ortung.Localization.probability_map, ("features: the name", "pattern", "'*/LRF/*'")),
+                                (ortung.SensorContainer.learn_values, ("noise-free readings in metres", "heading_step")),
+                                (ortung.sweep.table, ("figures: names", "position_rmse_m"))):
+            for word in words:
+                self.assertIn(word, function.__doc__)
+        self.assertNotIn("The same of", ortung.SensorContainer.learn_values.__doc__)
+
     def test_are_in_the_help_as_before(self):
         self.assertTrue(ortung.learn.__doc__.startswith("learn(world: object, robot: os.PathLike, out: os.PathLike, "))
 
