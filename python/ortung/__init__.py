@@ -75,7 +75,7 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *__all__, *_SUBMODULES})
+    return sorted({*__all__, *_SUBMODULES, *(name for name in globals() if name.startswith("__"))})
 
 
 if "gymnasium" in sys.modules or importlib.util.find_spec("gymnasium") is not None:

@@ -88,6 +88,14 @@ class Arguments(unittest.TestCase):
         self.assertTrue(ortung.learn.__doc__.startswith("learn(world: object, robot: os.PathLike, out: os.PathLike, "))
 
 
+class Package(unittest.TestCase):
+    def test_shows_its_public_names_only(self):
+        shown = [name for name in dir(ortung) if not name.startswith("_")]
+        self.assertEqual(shown, sorted({*ortung.__all__, "draw", "multi_agent", "single_agent", "sweep"} - {"__version__"}))
+        for name in dir(ortung):
+            getattr(ortung, name)
+
+
 class Files(unittest.TestCase):
     def test_that_are_not_shipped_name_the_nearest(self):
         for kind, file, text in (
