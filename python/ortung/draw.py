@@ -14,6 +14,7 @@ from ._needs import needs
 __all__ = ["map", "robot", "run", "world"]
 
 _PALE = 0.05  # share of cells at the pale end of a logarithmic scale, as in the pictures of `ortung show`
+_TRUE_WAY = 6.0  # width of its line, on which good estimates lie [points]
 _STATUS_COLOURS = {"tracking": "tab:green", "uncertain": "tab:orange", "lost": "tab:red"}
 
 
@@ -111,7 +112,7 @@ def _has_readings(localization):
 def map(localization, features=None, *, log=False, headings=None, pose=None, axes=None):
     """Draws p(s|l) of a Localization's present readings, as its probability_map(), with the samples.
 
-    The darker, the more probable, as in the pictures of `ortung show`; grey is where no robot can be. log: colours
+    features: a name, a pattern, or a list of them, as of probability_map(). The darker, the more probable, as in the pictures of `ortung show`; grey is where no robot can be. log: colours
     stand for ln p(s|l); the least twentieth of the cells has the palest one. pose: (x, y, heading) that is marked, e.g. the truth [m, rad].
     The title says so if there is no reading yet: then all poses are equally probable."""
     need("map", "localization", localization, Localization, "of a robot file and tables: ortung.Localization(ROBOT, TABLES)")
@@ -139,19 +140,20 @@ def map(localization, features=None, *, log=False, headings=None, pose=None, axe
 
 @plainly
 def run(run, world=None, axes=None):
-    """Draws an EvaluatedRun: the true way, and the estimates in the colour of their status.
+    """Draws an EvaluatedRun: the true way as a grey band, and on it the estimates in the colour of their status.
 
     world: a World, or the file of one, that is drawn below."""
     need("run", "run", run, EvaluatedRun, "of evaluate()")
     from . import draw
 
     axes = _axes(axes) if world is None else draw.world(world, axes)
-    axes.plot(*run.truth[:, :2].T, color="black", linewidth=1.2, zorder=4, label="truth")
+    axes.plot(*run.truth[:, :2].T, color="0.45", alpha=0.5, linewidth=_TRUE_WAY, solid_capstyle="round", zorder=4,
+              label="truth")
     status = run.status
     for name, colour in _STATUS_COLOURS.items():
         chosen = status == name
         if chosen.any():
             axes.plot(*run.estimates[chosen, :2].T, ".", color=colour, markersize=3, zorder=5, label=name)
-    axes.legend(fontsize="small")
+    axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     axes.set_title(f"{run.robot} in {run.world}: {run.figures['position_rmse_m']:.3f} m RMS")
     return axes

@@ -324,6 +324,11 @@ class Pictures(unittest.TestCase):
             way = ortung.draw.run(run, ARENA)
             truth = next(line for line in way.lines if line.get_label() == "truth")
             np.testing.assert_array_equal(truth.get_xydata(), run.truth[:, :2])
+            estimated = next(line for line in way.lines if line.get_label() == "tracking")
+            self.assertGreater(truth.get_linewidth(), 1.5 * estimated.get_markersize())  # a band on which estimates lie
+            self.assertLess(truth.get_zorder(), estimated.get_zorder())
+            way.figure.canvas.draw()
+            self.assertGreater(way.get_legend().get_window_extent().x0, way.get_window_extent().x1)  # beside the field
             drawn = sum(len(line.get_xydata()) for line in way.lines if line.get_label() in ("tracking", "uncertain", "lost"))
             self.assertEqual(drawn, len(run.estimates))
             body = ortung.draw.robot(ortung.Robot(ROBOT), pose=(1, 2, 0.5))
