@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "Bindings.hpp"
+#include "OwnSensor.hpp"
 #include "Progress.hpp"
 #include "Starts.hpp"
 #include "ortung/base/Angles.hpp"
@@ -93,11 +95,48 @@ std::string reprOf(const Evaluated& self) {
   return "EvaluatedRun('" + self.run.figures.source + "'" + text;
 }
 
+/// Makes the features of a dict of sensors by name, each alone or with the number of its values.
+std::vector<std::unique_ptr<SensorData>> ownSensors(const std::optional<py::dict>& sensors) {
+  std::vector<std::unique_ptr<SensorData>> all;
+  if (!sensors) return all;
+  for (const auto& [key, value] : *sensors) {
+    const auto name = py::cast<std::string>(key);
+    const bool isPair = py::isinstance<py::tuple>(value) && py::len(value) == 2;
+    const auto pair =
+        isPair ? py::reinterpret_borrow<py::tuple>(value) : py::make_tuple(value, std::size_t{1});
+    if (py::hasattr(pair[0], "learn"))
+      throw py::value_error(name +
+                            ": the sensor has learn(), but evaluate() has nothing that it "
+                            "could learn from; expected one that knows what it reads");
+    all.push_back(makeOwnSensor(name, pair[0], py::cast<std::size_t>(pair[1])));
+  }
+  return all;
+}
+
+/// Evaluates, and raises what a sensor of Python raised meanwhile. The caller does not hold
+/// Python's lock.
+EvaluatedRun evaluateWith(Localization& localization, const std::string& source,
+                          const Evaluation::Options& options, bool hasOwnSensors,
+                          ProgressTeller& teller) {
+  const auto check = [&] {
+    if (!hasOwnSensors) return;
+    const py::gil_scoped_acquire python;
+    raiseFailures(localization.container());
+  };
+  EvaluatedRun run = evaluate(localization, source, options, [&](double share) {
+    check();
+    return teller.tell(share);
+  });
+  check();
+  return run;
+}
+
 Evaluated evaluateRun(const std::string& source, const std::filesystem::path& robot,
                       const std::filesystem::path& tables, std::uint64_t seed,
                       std::optional<std::size_t> particles, std::optional<unsigned> threads,
                       const py::object& start, double convergedMetres, double convergedDegrees,
-                      const py::object& progress, bool anyWorld) {
+                      const py::object& progress, bool anyWorld,
+                      const std::optional<py::dict>& sensors) {
   const LocalizationConfig config =
       configOf(robot, tables, source, seed, particles, threads, start);
   if (source.empty()) throw py::value_error("source is '', expected 'KIND:PATH?key=value'");
@@ -106,13 +145,15 @@ Evaluated evaluateRun(const std::string& source, const std::filesystem::path& ro
   Evaluation::Options options;
   options.convergedMetres = convergedMetres;
   options.convergedRadians = radians(convergedDegrees);
+  std::vector<std::unique_ptr<SensorData>> own = ownSensors(sensors);
+  const bool hasOwnSensors = !own.empty();
   ProgressTeller teller(progress);
   const py::gil_scoped_release others;
   const std::unique_ptr<Localization> localization = localizationOf(config, anyWorld);
+  for (std::unique_ptr<SensorData>& sensor : own) localization->container().add(std::move(sensor));
   Evaluated result;
   try {
-    result.run =
-        evaluate(*localization, source, options, [&](double share) { return teller.tell(share); });
+    result.run = evaluateWith(*localization, source, options, hasOwnSensors, teller);
   } catch (const std::runtime_error&) {
     teller.raiseIfStopped();  // a run that was stopped at its begin has nothing to evaluate
     throw;
@@ -204,6 +245,7 @@ void bindEvaluation(py::module_& module) {
       py::arg("seed") = 1, py::arg("particles") = py::none(), py::arg("threads") = py::none(),
       py::arg("start") = "global", py::arg("converged_m") = 0.5, py::arg("converged_deg") = 15.0,
       py::arg("progress") = py::none(), py::arg("any_world") = false,
+      py::arg("sensors") = py::none(),
       "Localizes a robot by a source with ground truth and compares, as `ortung eval` does. "
       "source: 'KIND:PATH?key=value', e.g. 'record:run.rec'; robot, tables: files. particles, "
       "threads: None for what the robot file says. start: 'global' (it may be anywhere), 'truth' "
@@ -211,9 +253,11 @@ void bindEvaluation(py::module_& module) {
       "converged_m, converged_deg: errors are counted from the time on from which they stay below "
       "these for 5 s. progress: a function that is called now and then with the share of the run "
       "that is done, in [0, 1]; what it raises ends the run, and evaluate() raises it. any_world: "
-      "whether the readings may be of another world than the tables. ValueError for other starts, "
-      "WorldMismatch for another world, RuntimeError if there is nothing to localize with: "
-      "features are those of the robot file. Returns an EvaluatedRun.");
+      "whether the readings may be of another world than the tables. sensors: sensors of one's own "
+      "by the names of their features, as add_sensor() takes them, or (sensor, values); the source "
+      "has their readings. They can't be ones that learn. ValueError for other starts, "
+      "WorldMismatch for another world, RuntimeError if there is nothing to localize with. "
+      "Returns an EvaluatedRun.");
 }
 
 }  // namespace ortung::python

@@ -116,6 +116,57 @@ class Sensors(unittest.TestCase):
             container.add_sensor("me/lamp/x", Lamp(), 0)
         self.assertEqual(container.features, [])
 
+    def test_are_evaluated_by_a_record_with_their_readings(self):
+        class Lamps:
+            sigma, is_angle = 0.05, True
+
+            def expected(self, poses):
+                away = np.array([LAMP, OTHER]) - poses[:, None, :2]
+                return np.arctan2(away[..., 1], away[..., 0]) - poses[:, 2, None]
+
+        with tempfile.TemporaryDirectory(prefix="ortung-trying-") as folder:
+            robot, tables = pathlib.Path(folder, "robot.toml"), pathlib.Path(folder, "arena.ortung")
+            robot.write_text('[robot]\nname = "lamp_finder"\nradius_m = 0.2\n[[sensor]]\nplugin = "odometry"\n')
+            ortung.learn(ARENA, robot, tables)
+            sensors = {"me/lamp/brightness": Lamp(), "me/lamp/bearings": (Lamps(), 2)}
+            sim = ortung.Simulation(ARENA, seed=4)
+            it = sim.add_robot(robot, start=(-0.5, -0.2, 0.5))
+            it.wander(0.4)
+            container = ortung.Robot(robot).container
+            container.add_sensor("me/lamp/brightness", Lamp())
+            container.add_sensor("me/lamp/bearings", Lamps(), values=2)
+            random = np.random.default_rng(7)
+            record = f"record:{folder}/run.rec"
+            with ortung.RecordWriter(pathlib.Path(folder, "run.rec"), container, sim.world.fingerprint) as writer:
+                for cycle in range(1500):
+                    sim.step()
+                    for reading in it.readings:
+                        writer.write(*reading)
+                    if cycle % 20 == 0 and it.readings:
+                        truth = it.container.get("*/groundTruth/*")[None]
+                        stamp = it.readings[0][0]
+                        writer.write_values(stamp, "me/lamp/brightness", Lamp().expected(truth)[0] + random.normal(0, 0.01))
+                        writer.write_values(stamp, "me/lamp/bearings", Lamps().expected(truth)[0] + random.normal(0, 0.02, 2))
+            with self.assertRaisesRegex(RuntimeError, "nothing to localize with"):
+                ortung.evaluate(record, robot, tables)
+            runs = [ortung.evaluate(record, robot, tables, particles=3000, threads=threads, sensors=sensors) for threads in (1, 2)]
+            self.assertLess(runs[0].figures["position_median_m"], 0.1)
+            np.testing.assert_array_equal(runs[0].path, runs[1].path)
+
+            class Broken(Lamp):
+                def expected(self, poses):
+                    raise ZeroDivisionError("no lamp")
+
+            with self.assertRaisesRegex(ZeroDivisionError, "no lamp"):
+                ortung.evaluate(record, robot, tables, sensors={"me/lamp/brightness": Broken()})
+            Broken.learn = lambda self, pose, reading: None
+            with self.assertRaisesRegex(ValueError, r"brightness: the sensor has learn\(\)"):
+                ortung.evaluate(record, robot, tables, sensors={"me/lamp/brightness": Broken()})
+            with self.assertRaisesRegex(ValueError, "found 'lamp'"):
+                ortung.evaluate(record, robot, tables, sensors={"lamp": Lamp()})
+            with self.assertRaisesRegex(TypeError, "sensors is 3, expected a dict"):
+                ortung.evaluate(record, robot, tables, sensors=3)
+
     def test_localize_a_robot_with_several_threads(self):
         with tempfile.TemporaryDirectory(prefix="ortung-trying-") as folder:
             robot, tables = pathlib.Path(folder, "robot.toml"), pathlib.Path(folder, "arena.ortung")
