@@ -5,14 +5,13 @@
 #include <map>
 #include <set>
 
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 #include "ortung/core/Source.hpp"
 #include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseData.hpp"
 #include "ortung/robot/RobotFile.hpp"
 #include "ortung/sim/SimWorld.hpp"
-
-#include "Paths.hpp"
 
 namespace ortung {
 namespace {

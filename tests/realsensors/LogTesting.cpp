@@ -1,5 +1,4 @@
 #include "LogTesting.hpp"
-#include "Paths.hpp"
 
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "Paths.hpp"
 #include "ortung/core/PluginFactory.hpp"
 
 namespace ortung::testing {
