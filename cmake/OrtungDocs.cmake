@@ -12,7 +12,8 @@ function(ortung_docs_site)
     COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/docs/site/build.py ${PROJECT_BINARY_DIR}/docs-site
             --program $<TARGET_FILE:ortung> --version ${PROJECT_VERSION} ${package}
     VERBATIM)
-  add_dependencies(docs-site ortung ortung_commands)
+  # The program is asked for all keys, which it asks its plugins for.
+  add_dependencies(docs-site ortung ortung_commands ortung_plugins)
   if(TARGET ortung_python)
     add_dependencies(docs-site ortung_python ortung_python_learning ortung_python_sim)
   endif()
