@@ -45,7 +45,8 @@ EpisodeRecord::EpisodeRecord(const std::filesystem::path& file, const std::strin
 
 EpisodeRecord::~EpisodeRecord() {
   // The file and what is not written of it belong to the process from which this one was forked.
-  if (!isHere()) (void)writer_.release();
+  if (isHere()) return;
+  [[maybe_unused]] const RecordWriter* const left = writer_.release();
 }
 
 bool EpisodeRecord::isHere() const { return ::getpid() == process_; }
