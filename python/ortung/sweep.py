@@ -69,8 +69,8 @@ def table(folder: str, by: Sequence[str] = (), figures: Sequence[str] = ()) -> L
     folder: that of the sweep. by: keys of the sweep's file whose values get rows of their own, the means over all others;
     () for all but "seed". figures: names of numbers in what the tasks' command writes as JSON, as figures() returns
     it, with a dot for each step inside, e.g. "position_rmse_m", "at_corrections.nees_mean" (`ortung eval`) or
-    "cells.0.scoring.value" (the benchmark); () for the usual ones of the command. A name that is not there has the
-    value "" (no number).
+    "cells.0.scoring.value" (the benchmark); () for the usual ones of the command. Raises SweepError for a name that no
+    finished task has.
     """
     with tempfile.TemporaryDirectory(prefix="ortung-sweep-") as scratch:
         name = os.path.join(scratch, "table.csv")
