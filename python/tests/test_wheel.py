@@ -73,7 +73,7 @@ class Wheel(unittest.TestCase):
 
     def test_programs_of_the_page_need_nothing_else(self):
         programs = re.findall(r"```python\n(.*?)```", (PROJECT / "docs" / "python.md").read_text(), re.DOTALL)
-        shortest = next(one for one in programs if "FieldRegion(" in one)
+        shortest = next(one for one in programs if "A corridor of 4 m" in one)
         self.assertEqual(self.in_wheel(shortest), "p at x = 2.5 m: 1.000, at x = 1 m: 0.050\n")
         whole = programs[0].replace('"maps/fields/arena.toml"', 'ortung.shipped_file("fields", "arena.toml")')
         whole = whole.replace('"maps/robots/pioneer.toml"', 'ortung.shipped_file("robots", "pioneer.toml")')
