@@ -161,6 +161,37 @@ void bindArrays(PyBatch& batch) {
                              "The worlds as they are, (N, 12).");
 }
 
+/// What the episodes that begin from now on are like.
+void bindEpisodes(PyBatch& bound) {
+  bound
+      .def(
+          "set_options",
+          [](SharedBatch& self, const py::dict& options, std::optional<std::size_t> episode) {
+            Batch& batch = *self.batch;
+            if (episode && *episode >= batch.size())
+              throw py::index_error("there is no such episode");
+            const Options values = toOptions(batch.info().id, options);
+            alone(self.gate, [&] {
+              for (std::size_t i = 0; i < batch.size(); ++i)
+                if (!episode || *episode == i) batch.setOptions(i, values);
+            });
+          },
+          py::arg("options"), py::arg("episode") = py::none(),
+          "Changes options of episodes that begin from now on, or of one of them.")
+      .def(
+          "record",
+          [](SharedBatch& self, std::size_t episode, const std::filesystem::path& file) {
+            if (episode >= self.batch->size()) throw py::index_error("there is no such episode");
+            alone(self.gate, [&] { self.batch->record(episode, file); });
+          },
+          py::arg("episode"), py::arg("file"),
+          "Records what the robot of the first agent reads, with its true pose, in each episode "
+          "that begins in a place from now on, for `ortung view`. file: '{seed}' and '{number}' in "
+          "it stand for those of the episode; without them it has the latest one; '': nothing is "
+          "recorded. An episode whose file can't be written, or holds something else than a "
+          "record, does not begin: RuntimeError.");
+}
+
 /// N episodes of one environment, stepped together.
 void bindBatch(py::module_& module) {
   PyBatch bound(module, "Batch",
@@ -195,32 +226,6 @@ void bindBatch(py::module_& module) {
             alone(self.gate, [&] { self.batch->reset(episode, seed); });
           },
           py::arg("episode"), py::arg("seed") = py::none(), "Begins one episode anew.")
-      .def(
-          "set_options",
-          [](SharedBatch& self, const py::dict& options, std::optional<std::size_t> episode) {
-            Batch& batch = *self.batch;
-            if (episode && *episode >= batch.size())
-              throw py::index_error("there is no such episode");
-            const Options values = toOptions(batch.info().id, options);
-            alone(self.gate, [&] {
-              for (std::size_t i = 0; i < batch.size(); ++i)
-                if (!episode || *episode == i) batch.setOptions(i, values);
-            });
-          },
-          py::arg("options"), py::arg("episode") = py::none(),
-          "Changes options of episodes that begin from now on, or of one of them.")
-      .def(
-          "record",
-          [](SharedBatch& self, std::size_t episode, const std::filesystem::path& file) {
-            if (episode >= self.batch->size()) throw py::index_error("there is no such episode");
-            alone(self.gate, [&] { self.batch->record(episode, file); });
-          },
-          py::arg("episode"), py::arg("file"),
-          "Records what the robot of the first agent reads, with its true pose, in each episode "
-          "that begins in a place from now on, for `ortung view`. file: '{seed}' and '{number}' in "
-          "it stand for those of the episode; without them it has the latest one; '': nothing is "
-          "recorded. An episode whose file can't be written, or holds something else than a "
-          "record, does not begin: RuntimeError.")
       .def("__len__", [](const SharedBatch& self) { return self.batch->size(); })
       .def_property_readonly(
           "id", [](const SharedBatch& self) { return self.batch->info().id; },
@@ -232,6 +237,7 @@ void bindBatch(py::module_& module) {
         return "Batch('" + self.batch->info().id +
                "', episodes=" + std::to_string(self.batch->size()) + ")";
       });
+  bindEpisodes(bound);
   bindArrays(bound);
 }
 }  // namespace

@@ -13,7 +13,7 @@ constexpr const char* kExpected = ", expected 'global', 'truth' or (x, y, theta)
 /// What was given, in a line.
 std::string shown(const py::object& start) {
   constexpr std::size_t kLongest = 60;
-  const auto text = py::cast<std::string>(py::repr(start));
+  auto text = py::cast<std::string>(py::repr(start));
   if (text.size() <= kLongest) return text;
   return "of the type " + py::cast<std::string>(py::type::of(start).attr("__name__"));
 }
