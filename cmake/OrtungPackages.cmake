@@ -247,7 +247,7 @@ macro(ortung_make_packages)
       "a notebook needs of Ortung's robots, tables and records.")
   endif()
   if(ORTUNG_DOCS)
-    ortung_describe(ortung-doc SECTION doc ANY_MACHINE DEPENDS libjs-sphinxdoc SUGGESTS www-browser TEXT
+    ortung_describe(ortung-doc SECTION doc ANY_MACHINE DEPENDS libjs-sphinxdoc node-normalize.css SUGGESTS www-browser TEXT
       "robot localization: documentation and examples"
       "The documentation of Ortung for a browser, with a search that needs no"
       "network: first steps, guides to sensors, maps, real robots, ROS 2, the"
