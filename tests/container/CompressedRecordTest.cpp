@@ -391,6 +391,9 @@ std::string number(std::uint64_t value, int bytes) {
   return text;
 }
 
+/// A line of this many bytes that says nothing.
+std::string comment(std::size_t bytes) { return std::string(bytes, '#'); }
+
 std::string frame(const std::string& bytes) {
   std::string out(ZSTD_compressBound(bytes.size()), 0);
   out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 3));
@@ -450,12 +453,10 @@ TEST(HostileRecord, ThatSaysMoreThanItHoldsIsRefusedWithoutTheMemory) {
   EXPECT_EQ(
       complaint(kMagic + chunk("5 a/b/c 1 7\n", "", [](Head& h) { h.textBytes = 64U << 20; })),
       at + "holds 12 bytes, expected 67108864");
-  EXPECT_EQ(
-      complaint(kMagic + chunk(std::string(70'000'000, '#'), "", [](Head& h) { h.textBytes = 1; })),
-      at + "has a head that contradicts itself");
-  EXPECT_EQ(
-      complaint(kMagic + chunk(std::string(4'000'000, '#'), "", [](Head& h) { h.textBytes = 1; })),
-      at + "holds 4000000 bytes, expected 1");
+  EXPECT_EQ(complaint(kMagic + chunk(comment(70'000'000), "", [](Head& h) { h.textBytes = 1; })),
+            at + "has a head that contradicts itself");
+  EXPECT_EQ(complaint(kMagic + chunk(comment(4'000'000), "", [](Head& h) { h.textBytes = 1; })),
+            at + "holds 4000000 bytes, expected 1");
   EXPECT_EQ(
       complaint(kMagic + chunk("5 a/b/c 1 7\n", "", [](Head& h) { h.packedBytes = 1ULL << 62; })),
       at + "has a head that contradicts itself");
@@ -466,7 +467,7 @@ TEST(HostileRecord, ThatSaysMoreThanItHoldsIsRefusedWithoutTheMemory) {
 
 // A frame whose own head says 60 MB, and a few bytes.
 TEST(HostileRecord, WhoseFrameCanNotHoldWhatItSaysIsRefusedBeforeItIsUnpacked) {
-  std::string packed = frame(std::string(60'000'000, '#')).substr(0, 1000);
+  std::string packed = frame(comment(60'000'000)).substr(0, 1000);
   Head head;
   head.textBytes = 60'000'000;
   head.packedBytes = packed.size();

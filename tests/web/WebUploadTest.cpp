@@ -114,7 +114,7 @@ class WebUploadTest : public testing::Test {
     http::read(socket, buffer, response);
     return response;
   }
-  http::response<http::string_body> send(http::request<http::string_body> request) {
+  http::response<http::string_body> send(const http::request<http::string_body>& request) {
     tcp::socket socket = connected();
     http::write(socket, request);
     return answerOn(socket);
