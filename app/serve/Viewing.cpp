@@ -15,6 +15,7 @@
 
 #include "Console.hpp"
 #include "HostPort.hpp"
+#include "ortung/server/ControlToken.hpp"
 #ifdef ORTUNG_HAS_FOXGLOVE
 #include "FoxgloveSpeech.hpp"
 #endif
@@ -46,26 +47,6 @@ WebConfig webConfigOf(const ServingArguments& arguments) {
   config.protocols.push_back(foxgloveProtocol());
 #endif
   return config;
-}
-
-/// The tokens of all who may control; not those that say nothing of who it is.
-std::vector<std::string> tokensOfControl(const BoardConfig& config) {
-  std::vector<std::string> tokens;
-  for (const BoardToken& one : config.tokens) {
-    const bool mayControl = std::any_of(config.control.begin(), config.control.end(),
-                                        [&](const std::string& name) { return name == one.name; });
-    if (mayControl && one.name != "*" && !one.token.empty()) tokens.push_back(one.token);
-  }
-  return tokens;
-}
-
-/// In a time that does not depend on where they differ.
-bool isSameSecret(std::string_view secret, std::string_view given) {
-  if (secret.size() != given.size()) return false;
-  unsigned different = 0;
-  for (std::size_t i = 0; i < secret.size(); ++i)
-    different |= static_cast<unsigned char>(secret[i]) ^ static_cast<unsigned char>(given[i]);
-  return different == 0;
 }
 
 bool hasDesktop() {
@@ -106,10 +87,10 @@ Viewing::Viewing(const ServingArguments& arguments, BoardConfig& config, const W
   if (arguments.isViewing) admitPage(config);
   WebConfig web = webConfigOf(arguments);
   web.uploads = uploads;
-  web.uploads.admits = [tokens = tokensOfControl(config)](std::string_view given) {
-    return std::count_if(tokens.begin(), tokens.end(),
-                         [&](const std::string& token) { return isSameSecret(token, given); }) > 0;
-  };
+  BoardConfig known;
+  known.tokens = config.tokens;
+  known.control = config.control;
+  web.uploads.admits = [known](std::string_view token) { return isControlToken(known, token); };
   door_ = std::make_unique<WebDoor>(web);
   config.http = [this](const HttpVisitor& visitor) {
     return door_->take({visitor.socket, visitor.head, visitor.peer, visitor.join});

@@ -10,6 +10,7 @@
 #include "Files.hpp"
 #include "RunningBoard.hpp"
 #include "TestClient.hpp"
+#include "ortung/server/ControlToken.hpp"
 
 namespace ortung::test {
 namespace {
@@ -170,6 +171,15 @@ TEST(Doorkeeper, TokensAreComparedWhole) {
   for (const char* other : {"", "abc", "abcde", "abcdabcd", "bbcd", "abce"})
     EXPECT_FALSE(isSameInConstantTime("abcd", other)) << other;
   EXPECT_FALSE(isSameInConstantTime("", "a"));
+}
+
+TEST(Doorkeeper, OnlyATokenOfWhoMayControlIsOneOfControl) {
+  BoardConfig config;
+  config.tokens = {{"boss", "secret"}, {"guest", "other"}, {"*", "all"}, {"view", ""}};
+  config.control = {"boss", "view", "*"};
+  EXPECT_TRUE(isControlToken(config, "secret"));
+  for (const char* token : {"", "other", "all", "secre", "secrets"})
+    EXPECT_FALSE(isControlToken(config, token)) << token;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ortung/server/ControlToken.hpp"
+
 namespace ortung::server {
 namespace {
 
@@ -75,3 +77,14 @@ void Doorkeeper::refuse(const std::string& peer, const std::string& name, Timest
 }
 
 }  // namespace ortung::server
+
+bool ortung::isControlToken(const BoardConfig& config, std::string_view token) {
+  bool isRight = false;
+  for (const BoardToken& known : config.tokens) {
+    const bool mayControl =
+        std::find(config.control.begin(), config.control.end(), known.name) != config.control.end();
+    const bool isSame = server::isSameInConstantTime(known.token, token);
+    isRight = isRight || (isSame && mayControl && known.name != "*" && !known.token.empty());
+  }
+  return isRight;
+}

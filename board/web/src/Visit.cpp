@@ -16,6 +16,10 @@ constexpr double kFarewell = 2.0;            // time for a browser to close afte
 constexpr std::size_t kMostRequests = 100;   // of one connection
 constexpr std::size_t kDropped = 16u << 10;  // read and forgotten at a time [bytes]
 
+Response notUnderstood() {
+  return farewell(http::status::bad_request, "This is no request that is understood here.");
+}
+
 }  // namespace
 
 Visit::Visit(boost::asio::ip::tcp::socket socket, const WebVisitor& visitor, const Host& host,
@@ -36,25 +40,27 @@ void Visit::enter(Stage stage, double seconds) {
 }
 
 void Visit::read() {
-  if (host_.config.uploads.begin) {
-    readHead();
-    return;
-  }
+  const bool takesFiles = static_cast<bool>(host_.config.uploads.begin);
   parser_.emplace();
   parser_->header_limit(static_cast<std::uint32_t>(host_.config.limits.head));
-  parser_->body_limit(std::uint64_t{0});  // nothing is taken here
+  parser_->body_limit(takesFiles ? host_.config.uploads.most : std::uint64_t{0});
   enter(requests_ == 0 ? Stage::kServed : Stage::kIdle, host_.config.limits.pause);
-  http::async_read(
-      stream_, buffer_, *parser_, [self = shared_from_this()](const Error& error, std::size_t) {
-        if (self->stage_ == Stage::kOver) return;
-        if (!error)
-          self->receive();
-        else if (error == http::error::end_of_stream || error == boost::beast::error::timeout)
-          self->close();
-        else
-          self->write(
-              farewell(http::status::bad_request, "This is no request that is understood here."));
-      });
+  const auto receive = [self = shared_from_this(), takesFiles](const Error& error, std::size_t) {
+    if (self->stage_ == Stage::kOver) return;
+    if (!error)
+      takesFiles ? self->receiveHead() : self->receive();
+    else if (error == http::error::end_of_stream || error == boost::beast::error::timeout)
+      self->close();
+    else if (takesFiles && error == http::error::body_limit)
+      self->write(farewell(http::status::payload_too_large, self->tooLarge()));
+    else
+      self->write(notUnderstood());
+  };
+  // Where files are taken, what a request has behind its head is read when that is known.
+  if (takesFiles)
+    http::async_read_header(stream_, buffer_, *parser_, receive);
+  else
+    http::async_read(stream_, buffer_, *parser_, receive);
 }
 
 void Visit::receive() {
@@ -77,27 +83,6 @@ void Visit::receive() {
   }
 }
 
-/// Where files are taken, what a request has behind its head is read when that is known.
-void Visit::readHead() {
-  parser_.emplace();
-  parser_->header_limit(static_cast<std::uint32_t>(host_.config.limits.head));
-  parser_->body_limit(host_.config.uploads.most);
-  enter(requests_ == 0 ? Stage::kServed : Stage::kIdle, host_.config.limits.pause);
-  http::async_read_header(
-      stream_, buffer_, *parser_, [self = shared_from_this()](const Error& error, std::size_t) {
-        if (self->stage_ == Stage::kOver) return;
-        if (!error)
-          self->receiveHead();
-        else if (error == http::error::end_of_stream || error == boost::beast::error::timeout)
-          self->close();
-        else if (error == http::error::body_limit)
-          self->write(farewell(http::status::payload_too_large, self->tooLarge()));
-        else
-          self->write(
-              farewell(http::status::bad_request, "This is no request that is understood here."));
-      });
-}
-
 std::string Visit::tooLarge() const {
   return "A file has at most " + std::to_string(host_.config.uploads.most) + " bytes here.";
 }
@@ -108,7 +93,7 @@ void Visit::receiveHead() {
   else if (parser_->is_done())
     receive();
   else
-    write(farewell(http::status::bad_request, "This is no request that is understood here."));
+    write(notUnderstood());
 }
 
 void Visit::beginUpload() {

@@ -57,7 +57,6 @@ class Visit : public std::enable_shared_from_this<Visit> {
   enum class Stage { kServed, kIdle, kLeaving, kOver };
   void read();
   void receive();
-  void readHead();
   void receiveHead();
   void beginUpload();
   void readPiece();
