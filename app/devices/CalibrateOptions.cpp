@@ -23,6 +23,15 @@ void addCamera(Builder& build) {
   build.flag("--progress", a->progress, kProgress);
 }
 
+void addHeight(Builder& build, double& height, double& share) {
+  build.option("--height", height, "Approximate height of the camera above the floor [m]")
+      .within(0.05, 10.0)
+      .showsDefault();
+  build.option("--height-share", share, "Standard deviation of the height, as a share of it")
+      .within(0.001, 1.0)
+      .showsDefault();
+}
+
 void addLines(Builder& build) {
   const auto a = build.command<CalibrateLinesArguments>(
       "calibrate lines",
@@ -34,20 +43,45 @@ void addLines(Builder& build) {
       .option("--world", a->worlds,
               "World with the field's lines; the best fitting one of several is used")
       .required();
-  build.option("--height", a->height, "Approximate height of the camera above the floor [m]")
-      .within(0.05, 10.0)
-      .showsDefault();
+  addHeight(build, a->height, a->heightShare);
+  build.option("--like", a->like,
+               "Calibrations of other cameras of this kind, as --out writes them: with three or "
+               "more, the focal length is compared with theirs");
+  build.option("--out", a->out,
+               "File to write: the table [sensor.camera] of a robot file; the verdict is written "
+               "beside it, to NAME.verdict.json");
+  build.option("--draw", a->draw,
+               "Folder for the pictures with the points that were found (red) and the field's "
+               "lines as the camera would see them (blue)");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
+void addStand(Builder& build) {
+  const auto a = build.command<CalibrateStandArguments>(
+      "calibrate stand",
+      "ortung calibrate stand stands.toml --world field.toml --height 0.42 --plain",
+      runCalibrateStand);
   build
-      .option("--height-share", a->heightShare,
-              "Standard deviation of the height, as a share of it")
-      .within(0.001, 1.0)
+      .option("stands", a->stands,
+              "TOML file with a table [[stand]] for each picture: picture, tilt_deg (as joints and "
+              "an inertial sensor say it), and, if known, place_m = [x, y]")
+      .required();
+  build.option("--world", a->world, "World with the field's lines").required();
+  addHeight(build, a->height, a->heightShare);
+  build.option("--focal-px", a->focal, "Approximate focal length [px]; without it, many are tried")
+      .within(1.0, 100'000.0);
+  build.flag("--plain", a->plain, "The lens keeps straight lines straight");
+  build
+      .option("--ahead", a->ahead,
+              "How far the camera is ahead of what place_m is the place of [m]")
+      .within(-10.0, 10.0)
       .showsDefault();
   build.option("--out", a->out, "File to write: the table [sensor.camera] of a robot file");
   build.option("--draw", a->draw,
                "Folder for the pictures with the points that were found (red) and the field's "
                "lines as the camera would see them (blue)");
   build.flag("--force", a->force, kForce);
-  build.flag("--progress", a->progress, kProgress);
 }
 
 void addColours(Builder& build) {
@@ -63,4 +97,5 @@ void addColours(Builder& build) {
 }  // namespace
 }  // namespace ortung::app
 
-ORTUNG_COMMAND_MODULE(ortung::app::addCamera, ortung::app::addLines, ortung::app::addColours)
+ORTUNG_COMMAND_MODULE(ortung::app::addCamera, ortung::app::addLines, ortung::app::addStand,
+                      ortung::app::addColours)

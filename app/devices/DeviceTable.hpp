@@ -11,7 +11,9 @@ namespace ortung::app {
 
 /// Returns a table with a line for each device: its state, its rate, the age of its newest reading
 /// and its problem; then the pose, if there is one.
+/// @param withoutOdometry time since the newest odometry [s]; nothing: it is not missing
 std::string deviceTable(const std::vector<DeviceStatus>& devices,
-                        const std::optional<PoseEstimate>& estimate);
+                        const std::optional<PoseEstimate>& estimate,
+                        std::optional<double> withoutOdometry = std::nullopt);
 
 }  // namespace ortung::app

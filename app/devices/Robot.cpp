@@ -28,10 +28,13 @@
 #include "Serving.hpp"
 #include "ServingArguments.hpp"
 #include "SourceArguments.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/NewFile.hpp"
 #include "ortung/core/RobotCommands.hpp"
 #include "ortung/devices/DeviceStatusData.hpp"
 #include "ortung/devices/DevicesSource.hpp"
+#include "ortung/formats/FeatureOf.hpp"
+#include "ortung/formats/FormatNames.hpp"
 #include "ortung/mcl_served/LocalizationCommands.hpp"
 #include "ortung/mcl_served/LocalizedRobot.hpp"
 #include "ortung/records/RecordWriter.hpp"
@@ -44,7 +47,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{200};
 constexpr std::chrono::milliseconds kBetweenStatus{500};
-constexpr RobotId kRobot = 1;  // number of the robot for clients
+constexpr double kOdometryMissing = 1.0;  ///< age from which on users are told [s]
+constexpr RobotId kRobot = 1;             // number of the robot for clients
 
 /// The devices as a source that can be stopped, also by a signal.
 class Readings : public Source {
@@ -53,13 +57,15 @@ class Readings : public Source {
       : devices_(devices), isOver_(isOver) {}
   ~Readings() override = default;
   bool next(Message& message) override {
-    while (!isOver_ && interruptSignal() == 0 && !devices_.isAtEnd()) {
+    while (true) {
+      const bool isLast = isOver_ || interruptSignal() != 0 || devices_.isAtEnd();
+      if (isLast) devices_.finish();
       if (auto reading = devices_.poll(kPatience)) {
         message = std::move(*reading);
         return true;
       }
+      if (isLast) return false;
     }
-    return false;
   }
   bool isLive() const override { return true; }
 
@@ -152,8 +158,26 @@ class RunningRobot {
     const std::lock_guard lock(mutex_);
     return estimate_;
   }
+  /// Returns the time since the newest odometry [s]; nothing: it is not missing, or there was none.
+  std::optional<double> withoutOdometry() const {
+    if (!localization_) return std::nullopt;
+    const SensorContainer& features = localization_->container();
+    const SensorContainer::ReadLock lock = features.read();
+    for (const auto& data : features.all()) {
+      if (data->sequence() == 0 || !isOf(*data, formats::kOdometry)) continue;
+      const double age = toSeconds(devices_.clock()() - data->stamp());
+      return age > kOdometryMissing ? std::optional(age) : std::nullopt;
+    }
+    return std::nullopt;
+  }
+  /// Returns what MCL does without odometry.
+  std::string motionWithoutOdometry() const {
+    const MclConfig& mcl = localization_->mclConfig();
+    return fmt::format("MCL assumes random motion of {:.3g} m and {:.3g} degrees in a second",
+                       mcl.driftMetres, degrees(mcl.driftRadians));
+  }
   void print() {
-    fmt::print("{}", deviceTable(devices_.status(), estimate()));
+    fmt::print("{}", deviceTable(devices_.status(), estimate(), withoutOdometry()));
     if (record_)
       fmt::print("{}: {} readings\n", printable(arguments_.record.string()), record_->messages());
     if (localization_) fmt::print("{} updates of the pose\n", updates_);
@@ -228,12 +252,13 @@ class Watch {
     const std::vector<DeviceStatus> all = robot_.devices().status();
     robot_.publishStatus(all);
     if (isTerminal_) {
-      const std::string table = deviceTable(all, robot_.estimate());
+      const std::string table = deviceTable(all, robot_.estimate(), robot_.withoutOdometry());
       const std::string up = lines_ == 0 ? "" : fmt::format("\033[{}A", lines_);
       lines_ = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n'));
       fmt::print(stderr, "{}\033[J{}", up, table);
       return;
     }
+    noteOdometry();
     states_.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (states_[i] == all[i].state) continue;
@@ -243,9 +268,19 @@ class Watch {
     }
   }
 
+  /// Says when odometry begins to be missing, and when it is back.
+  void noteOdometry() {
+    const std::optional<double> missing = robot_.withoutOdometry();
+    if (missing && !missing_)
+      note(fmt::format("no odometry for {:.1f} s; {}", *missing, robot_.motionWithoutOdometry()));
+    if (!missing && missing_) note(fmt::format("odometry is back after {:.1f} s", *missing_));
+    missing_ = missing;
+  }
+
   RunningRobot& robot_;
   bool isTerminal_;
-  std::size_t lines_ = 0;  ///< number of lines of the table that is shown
+  std::optional<double> missing_;  ///< time without odometry that was said last [s]
+  std::size_t lines_ = 0;          ///< number of lines of the table that is shown
   std::vector<std::optional<DeviceState>> states_;
   std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -23,7 +23,7 @@ struct Annotation {
 };
 
 /// Makes the annotations of a picture.
-/// @param things thing of each pixel, as Sheet::things
+/// @param things thing of each pixel, as Traced::things
 /// @param sensor pose of the camera's sensor frame in the field frame
 std::vector<Annotation> annotationsOf(std::span<const std::uint32_t> things, const World& world,
                                       const CameraView& camera, const Pose2& sensor);

@@ -46,6 +46,11 @@ TEST(DeviceTable, NamesTheReasonAndWhateverWentWrong) {
   status.clockJumps = 7;
   EXPECT_EQ(troublesOf(status),
             "3 refused, 4 repeated, 5 too many, 6 late, 7 clock jumps, 2 openings");
+  status.driftsTooMuch = true;
+  EXPECT_TRUE(troublesOf(status).starts_with(
+      "clock drifts by more than 1000 ppm, which is not followed, 3 refused"))
+      << troublesOf(status);
+  status.driftsTooMuch = false;
   status.reason = "a\x1B[2J";
   EXPECT_TRUE(troublesOf(status).starts_with("a\\x1b[2J, 3 refused")) << troublesOf(status);
 }
@@ -57,6 +62,7 @@ TEST(DeviceTable, EndsWithThePoseIfThereIsOne) {
   const std::string table = deviceTable({}, estimate);
   EXPECT_EQ(table.substr(table.find('\n') + 1),
             "pose x 1.26 m, y -0.50 m, heading -45.0 degrees, uncertain\n");
+  EXPECT_TRUE(deviceTable({}, estimate, 3.21).ends_with("uncertain, without odometry for 3.2 s\n"));
 }
 
 }  // namespace

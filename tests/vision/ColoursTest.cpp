@@ -38,7 +38,8 @@ bool isIn(const ColourRange& range, const Hsv& colour) {
   const double turn = (colour.hue - range.hue) * M_PI / 180;
   const double apart = std::abs(std::atan2(std::sin(turn), std::cos(turn))) * 180 / M_PI;
   return apart <= range.hueTolerance && colour.saturation >= range.minSaturation &&
-         colour.value >= range.minValue && colour.value <= range.maxValue;
+         colour.saturation <= range.maxSaturation && colour.value >= range.minValue &&
+         colour.value <= range.maxValue;
 }
 
 Parameters rangeOf(double hue, double saturation) {
@@ -57,6 +58,11 @@ TEST(ReadColours, KeepsWhatTheTableDoesNotSay) {
   EXPECT_EQ(colours.ball.hueTolerance, Colours{}.ball.hueTolerance);
   EXPECT_EQ(colours.ball.minValue, Colours{}.ball.minValue);
   EXPECT_EQ(colours.floor.hue, Colours{}.floor.hue);
+  EXPECT_FALSE(colours.paleBall)
+      << "another ball may have nothing in common with a pale yellow one";
+  EXPECT_TRUE(readColours(Parameters("robot.toml")).paleBall);
+  table.set("pale_ball", Parameters::Node{rangeOf(50, 0.1), 1});
+  EXPECT_EQ(readColours(table).paleBall.value_or(ColourRange{}).hue, 50.0);
   Parameters wrong("robot.toml");
   wrong.set("floor", Parameters::Node{rangeOf(361, 0.5), 1});
   EXPECT_THROW(readColours(wrong), ConfigError);
@@ -74,7 +80,11 @@ TEST(ColoursToml, RoundsToThousandths) {
   EXPECT_EQ(toToml(colours).substr(0, toToml(colours).find('\n')),
             "floor = { hue_deg = 123.457, hue_tolerance_deg = 20.000, min_saturation = 0.000, "
             "min_value = 0.250, max_value = 1.000 }");
-  EXPECT_NE(toToml(colours).find("\nball = { hue_deg = 48.000"), std::string::npos);
+  EXPECT_NE(toToml(colours).find("\nball = { hue_deg = 49.000"), std::string::npos);
+}
+
+bool isBallIn(const Colours& colours, const Hsv& colour) {
+  return isIn(colours.ball, colour) || (colours.paleBall && isIn(*colours.paleBall, colour));
 }
 
 // The table has 32 levels a channel, and what is in the middle of a level stands for it. Hues of
@@ -100,10 +110,10 @@ TEST(ColourTable, IsTheRangesOfTheMiddlesOfItsLevels) {
       const Hsv colour = toHsv(middle[0], middle[1], middle[2]);
       for (const int more : {0, 7}) {
         ASSERT_EQ(table.isFloor(rgb(more).data()), isIn(colours.floor, colour)) << i;
-        ASSERT_EQ(table.isBall(rgb(more).data()), isIn(colours.ball, colour)) << i;
+        ASSERT_EQ(table.isBall(rgb(more).data()), isBallIn(colours, colour)) << i;
       }
       floor += isIn(colours.floor, colour);
-      ball += isIn(colours.ball, colour);
+      ball += isBallIn(colours, colour);
     }
     EXPECT_GT(floor, 500u);
     EXPECT_GT(ball, 100u);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -94,6 +95,43 @@ TEST(LineFinder, AWallBeforeALineDoesNotHideIt) {
   std::size_t found = 0;
   for (const LinePoint& p : find(picture)) found += std::abs(p.pixel.v - 72.0) < 1.0 ? 1 : 0;
   EXPECT_GT(found, 55U);
+}
+
+/// A floor with a line of 1.6 px across it, which is mostly the floor's colour and a little of
+/// another one.
+Picture faintLine(const Colour& colour, Random& random, double from, double to) {
+  Picture picture = floorOf(400, 300, random);
+  Colour mixed = kGreen;
+  for (std::size_t k = 0; k < 3; ++k) mixed[k] += (colour[k] - kGreen[k]) / 14;
+  paint(picture, mixed, [&](int u, int v) {
+    return u < from || u > to ? -9.0 : 0.8 - std::abs(v - 140.0 - 0.1 * (u - 200.0));
+  });
+  return picture;
+}
+
+std::size_t countOn(const std::vector<LinePoint>& points) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const LinePoint& p) {
+        return std::abs(p.pixel.v - 140.0 - 0.1 * (p.pixel.u - 200.0)) < 1.0;
+      }));
+}
+
+TEST(LineFinder, FindsThinFaintLinesWhereManyScanLinesCrossThem) {
+  Random random(11);
+  const Picture picture = faintLine(kWhite, random, 50, 350);
+  const auto points = find(picture);
+  EXPECT_GT(countOn(points), 42U);  // of 50 columns
+  EXPECT_EQ(countOn(points), points.size());
+  const ImageView view = picture.view();
+  LineFinder bold({.findsFaint = false});
+  EXPECT_LT(bold.find(view, ColourTable(findColours({&view, 1}))).size(), 10U);
+}
+
+TEST(LineFinder, AShortFaintMarkOrAStreakOfLightIsNoLine) {
+  Random random(12);
+  EXPECT_TRUE(find(faintLine(kWhite, random, 190, 215)).empty()) << "four columns";
+  // Light makes all channels of the floor brighter alike.
+  EXPECT_TRUE(find(faintLine({80, 280, 120}, random, 50, 350)).empty());
 }
 
 TEST(FindColours, TakesTheFloorAsItIsInBluishAndInYellowishLight) {

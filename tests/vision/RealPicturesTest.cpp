@@ -65,8 +65,8 @@ TEST(RealPictures, LinePointsLieOnLinesThatWereMarkedByHand) {
   const double recall = static_cast<double>(all.seen) / static_cast<double>(all.seen + all.missed);
   std::printf("all: precision %.3f, recall %.3f\n", precision, recall);
   EXPECT_GT(all.right, 500U);
-  EXPECT_GT(precision, 0.9);
-  EXPECT_GT(recall, 0.5);
+  EXPECT_GT(precision, 0.98);
+  EXPECT_GT(recall, 0.84);
 }
 
 }  // namespace

@@ -20,9 +20,11 @@ ImageFeaturesExtractor::ImageFeaturesExtractor(const Parameters& p)
     : settings_(readImageFeaturesSettings(p)), finder_(settings_.finder) {
   if (!settings_.findsColours) colours_ = std::make_unique<ColourTable>(settings_.colours);
   for (const ColourRange& range : settings_.goalColours)
-    goalColours_.push_back(std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range}));
+    goalColours_.push_back(
+        std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range, .paleBall = {}}));
   for (const ColourRange& range : settings_.postColours)
-    postColours_.push_back(std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range}));
+    postColours_.push_back(
+        std::make_unique<ColourTable>(Colours{.floor = {}, .ball = range, .paleBall = {}}));
 }
 
 void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
@@ -46,6 +48,9 @@ void ImageFeaturesExtractor::take(std::span<const SensorData* const> inputs) {
 void ImageFeaturesExtractor::prepare() {
   if (prepared_ == &view_->model()) return;
   prepared_ = &view_->model();
+  if (settings_.sees("ball"))
+    balls_ = std::make_unique<BallFinder>(
+        *view_, BallFinder::Config{.radius = settings_.ballRadius, .maxRange = settings_.maxRange});
   if (settings_.sees("obstacles"))
     floor_ = std::make_unique<FloorScan>(
         *view_, FloorScan::Config{.maxRange = std::min(settings_.maxRange, 6.0)});
@@ -100,10 +105,9 @@ ImageFeaturesExtractor::Words ImageFeaturesExtractor::lines(const ImageView& ima
   return PointsData::encode(points);
 }
 
-ImageFeaturesExtractor::Words ImageFeaturesExtractor::balls(const ImageView& image) const {
+ImageFeaturesExtractor::Words ImageFeaturesExtractor::balls(const ImageView& image) {
   std::vector<ObjectsData::Object> objects;
-  for (const SeenBall& ball :
-       findBalls(image, *colours_, *view_, settings_.ballRadius, settings_.maxRange)) {
+  for (const SeenBall& ball : balls_->find(image, *colours_)) {
     const auto from =
         fromRobot(ball.range * std::cos(ball.bearing), ball.range * std::sin(ball.bearing));
     objects.push_back({0, ObjectsData::kNoColour, from.range, from.bearing, settings_.ballRadius});

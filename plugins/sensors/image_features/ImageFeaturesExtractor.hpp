@@ -10,6 +10,7 @@
 #include "ImageFeaturesSettings.hpp"
 #include "ortung/camera/ImageData.hpp"
 #include "ortung/core/Extractor.hpp"
+#include "ortung/vision/BallFinder.hpp"
 #include "ortung/vision/BlobFinder.hpp"
 #include "ortung/vision/FloorScan.hpp"
 
@@ -28,7 +29,7 @@ class ImageFeaturesExtractor : public Extractor {
  private:
   void prepare();
   Words lines(const ImageView& image);
-  Words balls(const ImageView& image) const;
+  Words balls(const ImageView& image);
   Words obstacles(const ImageView& image) const;
   Words goals(const ImageView& image) const;
   Words posts(const ImageView& image) const;
@@ -47,6 +48,7 @@ class ImageFeaturesExtractor : public Extractor {
   // Tables that are made once per camera.
   const CameraModel* prepared_ = nullptr;
   std::unique_ptr<FloorScan> floor_;
+  std::unique_ptr<BallFinder> balls_;
   std::unique_ptr<ColourTable> colours_;
   std::vector<std::unique_ptr<ColourTable>> goalColours_;
   std::vector<std::unique_ptr<ColourTable>> postColours_;

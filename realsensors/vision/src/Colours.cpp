@@ -49,6 +49,7 @@ ColourRange readRange(const Parameters& p, ColourRange range) {
   range.minSaturation = p.numberOr("min_saturation", range.minSaturation, {0.0, 1.0});
   range.minValue = p.numberOr("min_value", range.minValue, {0.0, 1.0});
   range.maxValue = p.numberOr("max_value", range.maxValue, {0.0, 1.0});
+  range.maxSaturation = p.numberOr("max_saturation", range.maxSaturation, {0.0, 1.0});
   return range;
 }
 
@@ -61,7 +62,8 @@ std::string toToml(const char* name, const ColourRange& r) {
   return std::string(name) + " = { hue_deg = " + number(r.hue) +
          ", hue_tolerance_deg = " + number(r.hueTolerance) +
          ", min_saturation = " + number(r.minSaturation) + ", min_value = " + number(r.minValue) +
-         ", max_value = " + number(r.maxValue) + " }\n";
+         ", max_value = " + number(r.maxValue) +
+         (r.maxSaturation < 1.0 ? ", max_saturation = " + number(r.maxSaturation) : "") + " }\n";
 }
 
 }  // namespace
@@ -85,8 +87,9 @@ Hsv toHsv(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
 }
 
 bool ColourRange::has(const Hsv& colour) const {
-  return colour.saturation >= minSaturation && colour.value >= minValue &&
-         colour.value <= maxValue && hueDistance(colour.hue, hue) <= hueTolerance;
+  return colour.saturation >= minSaturation && colour.saturation <= maxSaturation &&
+         colour.value >= minValue && colour.value <= maxValue &&
+         hueDistance(colour.hue, hue) <= hueTolerance;
 }
 
 // Takes the commonest green hue, and as its tolerance the spread of the peak around it.
@@ -120,11 +123,16 @@ Colours readColours(const Parameters& p) {
   Colours colours;
   colours.floor = readRange(p.table("floor"), colours.floor);
   colours.ball = readRange(p.table("ball"), colours.ball);
+  // Another ball may have nothing in common with a pale yellow one.
+  const ColourRange pale = *colours.paleBall;
+  if (p.has("ball")) colours.paleBall.reset();
+  if (p.has("pale_ball")) colours.paleBall = readRange(p.table("pale_ball"), pale);
   return colours;
 }
 
 std::string toToml(const Colours& colours) {
-  return toToml("floor", colours.floor) + toToml("ball", colours.ball);
+  return toToml("floor", colours.floor) + toToml("ball", colours.ball) +
+         (colours.paleBall ? toToml("pale_ball", *colours.paleBall) : "");
 }
 
 ColourTable::ColourTable(const Colours& colours) {
@@ -134,7 +142,8 @@ ColourTable::ColourTable(const Colours& colours) {
     };
     const Hsv colour = toHsv(channel(10), channel(5), channel(0));
     if (colours.floor.has(colour)) table_[i] |= static_cast<std::uint8_t>(ColourClass::kFloor);
-    if (colours.ball.has(colour)) table_[i] |= static_cast<std::uint8_t>(ColourClass::kBall);
+    if (colours.ball.has(colour) || (colours.paleBall && colours.paleBall->has(colour)))
+      table_[i] |= static_cast<std::uint8_t>(ColourClass::kBall);
   }
 }
 

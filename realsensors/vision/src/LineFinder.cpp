@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "FaintLines.hpp"
+#include "FaintScan.hpp"
+
 namespace ortung {
 namespace {
 
@@ -128,27 +131,54 @@ std::pair<double, double> edgesOf(const Stretch& white, int beside, const Profil
           b + part(after, profile.white(b), halfRight)};
 }
 
+constexpr double kSureEvidence = 8.0;  ///< evidence of a crossing that is sure
+
 }  // namespace
+
+LineFinder::LineFinder(const Config& config)
+    : config_(config),
+      faint_(std::make_unique<FaintLines>()),
+      faintScan_(std::make_unique<FaintScan>()) {}
+LineFinder::~LineFinder() = default;
+LineFinder::LineFinder(LineFinder&&) noexcept = default;
+LineFinder& LineFinder::operator=(LineFinder&&) noexcept = default;
 
 std::span<const LinePoint> LineFinder::find(const ImageView& image, const ColourTable& colours) {
   points_.clear();
+  faintPoints_.clear();
   if (image.format != PixelFormat::kRgb) return points_;
-  const int width = image.size.width;
-  const int height = image.size.height;
-  const auto pitch = static_cast<std::size_t>(width) * 3;
-  longest_ = std::max(4, static_cast<int>(config_.mostWidth * std::max(width, height)));
-  for (int v = config_.spacing / 2; v < height; v += config_.spacing) {
-    scan(image.pixels + static_cast<std::size_t>(v) * pitch, 3, width, colours);
-    for (const Crossing& c : crossings_)
-      points_.push_back({{c.middle, static_cast<double>(v)}, c.width, true});
-  }
-  for (int u = config_.spacing / 2; u < width; u += config_.spacing) {
-    scan(image.pixels + static_cast<std::size_t>(u) * 3, pitch, height, colours);
-    for (const Crossing& c : crossings_)
-      points_.push_back({{static_cast<double>(u), c.middle}, c.width, false});
-  }
-  keepChains(width, height);
+  longest_ = std::max(
+      4, static_cast<int>(config_.mostWidth * std::max(image.size.width, image.size.height)));
+  scanAll(image, colours, true);
+  scanAll(image, colours, false);
+  keepChains(image.size.width, image.size.height);
+  points_.insert(points_.end(), faintPoints_.begin(), faintPoints_.end());
   return points_;
+}
+
+void LineFinder::scanAll(const ImageView& image, const ColourTable& colours, bool inRows) {
+  const auto pitch = static_cast<std::size_t>(image.size.width) * 3;
+  const int scans = inRows ? image.size.height : image.size.width;
+  const int count = inRows ? image.size.width : image.size.height;
+  const auto pointOf = [inRows](const Crossing& c, int at) {
+    const auto scanned = static_cast<double>(at);
+    return LinePoint{inRows ? Pixel{c.middle, scanned} : Pixel{scanned, c.middle}, c.width, inRows};
+  };
+  faint_->begin(config_.spacing);
+  for (int at = config_.spacing / 2; at < scans; at += config_.spacing) {
+    const std::uint8_t* first = image.pixels + static_cast<std::size_t>(at) * (inRows ? pitch : 3);
+    scan(first, inRows ? 3 : pitch, count, colours);
+    for (const Crossing& c : crossings_) points_.push_back(pointOf(c, at));
+    if (!config_.findsFaint) continue;
+    const std::size_t across = inRows ? pitch : 3;
+    scanFaint({first, at > 0 ? first - across : first, at + 1 < scans ? first + across : first,
+               inRows ? 3 : pitch, count});
+  }
+  for (const FaintLines::Found& found : faint_->finish()) {
+    if (found.crossing.isSure) continue;
+    const int at = config_.spacing / 2 + found.scan * config_.spacing;
+    faintPoints_.push_back(pointOf({found.crossing.middle, found.crossing.width, 0.0}, at));
+  }
 }
 
 /// Keeps points in line with others: the scan lines beside one that crosses a line cross it, too.
@@ -221,10 +251,27 @@ void LineFinder::scan(const std::uint8_t* first, std::size_t step, int count,
     if (!fits) continue;
     if (isOnFloor(*white, beside, profile, config_)) {
       const auto [rise, fall] = edgesOf(*white, beside, profile);
-      crossings_.push_back({0.5 * (rise + fall), fall - rise});
+      crossings_.push_back({0.5 * (rise + fall), fall - rise, white->peak - white->left});
     }
     i = white->end;
   }
+}
+
+void LineFinder::scanFaint(const ScanLine& line) {
+  faintCrossings_.clear();
+  for (const Crossing& c : crossings_)
+    faintCrossings_.push_back({.middle = c.middle,
+                               .width = c.width,
+                               .step = c.step,
+                               .evidence = kSureEvidence,
+                               .isSure = true});
+  for (const FaintCrossing& faint : faintScan_->find(line, floorSum_)) {
+    const bool isKnown = std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
+      return std::abs(c.middle - faint.middle) < 0.5 * c.width + 3.0;
+    });
+    if (!isKnown) faintCrossings_.push_back(faint);
+  }
+  faint_->add(faintCrossings_);
 }
 
 }  // namespace ortung

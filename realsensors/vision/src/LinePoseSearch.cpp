@@ -40,7 +40,40 @@ std::vector<LinePose> onePerPlace(std::span<const LinePose> poses, const Extent&
   return kept;
 }
 
+/// The floor of a number that fits into an int, without a call of the mathematical library.
+int floorOf(double x) {
+  const int whole = static_cast<int>(x);
+  return x < whole ? whole - 1 : whole;
+}
+
 }  // namespace
+
+/// The cheapest poses that were offered, so many at most.
+class LinePoseSearch::Cheapest {
+ public:
+  explicit Cheapest(std::size_t most) : most_(most) {}
+  /// The cost from which on poses are not kept.
+  double bound() const {
+    return poses_.size() < most_ ? std::numeric_limits<double>::infinity() : poses_.front().cost;
+  }
+  void offer(const LinePose& pose) {
+    if (pose.cost >= bound()) return;
+    if (poses_.size() >= most_) {
+      std::pop_heap(poses_.begin(), poses_.end(), isBetter);
+      poses_.pop_back();
+    }
+    poses_.push_back(pose);
+    std::push_heap(poses_.begin(), poses_.end(), isBetter);
+  }
+  std::vector<LinePose> sorted() {
+    std::sort_heap(poses_.begin(), poses_.end(), isBetter);
+    return std::move(poses_);
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<LinePose> poses_;  ///< a heap: the most expensive one comes first
+};
 
 LinePoseSearch::LinePoseSearch(const FieldLines& lines) : LinePoseSearch(lines, Config{}) {}
 
@@ -66,8 +99,8 @@ LinePoseSearch::LinePoseSearch(const FieldLines& lines, const Config& config)
 }
 
 std::ptrdiff_t LinePoseSearch::cellAt(double x, double y) const {
-  const int column = static_cast<int>(std::floor((x - xMin_) / config_.cell + 0.5));
-  const int row = static_cast<int>(std::floor((y - yMin_) / config_.cell + 0.5));
+  const int column = floorOf((x - xMin_) / config_.cell + 0.5);
+  const int row = floorOf((y - yMin_) / config_.cell + 0.5);
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return -1;
   return static_cast<std::ptrdiff_t>(row) * columns_ + column;
 }
@@ -116,8 +149,7 @@ LinePoseSearch::Picked LinePoseSearch::pick(std::span<const LinePlace> points,
   return picked;
 }
 
-void LinePoseSearch::searchHeading(const Picked& picked, double theta,
-                                   std::vector<LinePose>& found) const {
+void LinePoseSearch::searchHeading(const Picked& picked, double theta, Cheapest& found) const {
   const double c = std::cos(theta);
   const double s = std::sin(theta);
   std::vector<LinePlace> turned;
@@ -126,13 +158,15 @@ void LinePoseSearch::searchHeading(const Picked& picked, double theta,
        y += config_.step)
     for (double x = lines_.xMin() - config_.beyond; x <= lines_.xMax() + config_.beyond;
          x += config_.step) {
+      // Costs are never negative, so a sum that is too large already need not be finished.
+      const double bound = found.bound() * static_cast<double>(turned.size());
       float sum = 0.0F;
-      for (std::size_t i = 0; i < turned.size(); ++i) {
+      for (std::size_t i = 0; i < turned.size() && sum < bound; ++i) {
         const std::ptrdiff_t cell = cellAt(x + turned[i].x, y + turned[i].y);
         const float d = cell < 0 ? kOutside : distances_[static_cast<std::size_t>(cell)];
         sum += std::min(d * d * picked.weights[i], static_cast<float>(kMostCost));
       }
-      found.push_back({{x, y, theta}, sum / static_cast<double>(turned.size())});
+      found.offer({{x, y, theta}, sum / static_cast<double>(turned.size())});
     }
 }
 
@@ -141,15 +175,11 @@ std::vector<LinePose> LinePoseSearch::search(std::span<const LinePlace> points,
                                              std::size_t most) const {
   const Picked picked = pick(points, sigmas);
   if (picked.places.empty()) return {};
-  std::vector<LinePose> found;
+  Cheapest found(20 * most);
   const int turns = static_cast<int>(std::ceil(kTurn / config_.turn));
   for (int t = 0; t < turns; ++t) searchHeading(picked, wrapAngle(t * kTurn / turns), found);
-  const std::size_t tried = std::min<std::size_t>(found.size(), 20 * most);
-  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(tried), found.end(),
-                    isBetter);
-  found.resize(tried);
   std::vector<LinePose> best;
-  for (const LinePose& start : onePerPlace(found, kHill, 3 * most))
+  for (const LinePose& start : onePerPlace(found.sorted(), kHill, 3 * most))
     best.push_back(polish(points, sigmas, start.pose));
   std::sort(best.begin(), best.end(), isBetter);
   return onePerPlace(best, kPlace, most);

@@ -7,6 +7,7 @@
 #include "ortung/base/Export.hpp"
 #include "ortung/camera/CameraView.hpp"
 #include "ortung/camera/ImageData.hpp"
+#include "ortung/vision/BallFinder.hpp"
 #include "ortung/vision/Colours.hpp"
 
 namespace ortung {
@@ -18,12 +19,6 @@ struct Blob {
   double pixels = 0.0;                                    ///< its area [px]
 };
 
-/// A ball on the floor, in the sensor's frame.
-struct SeenBall {
-  double range = 0.0;    ///< distance to its middle along the floor [m]
-  double bearing = 0.0;  ///< direction to its middle, counter-clockwise [rad]
-};
-
 /// Finds the connected parts of one class, the largest first, by OpenCV's connected components.
 /// Of large images every second pixel is used.
 /// @param leastPixels least area of a part [px]
@@ -31,8 +26,8 @@ struct SeenBall {
 ORTUNG_API std::vector<Blob> findBlobs(const ImageView& image, const ColourTable& colours,
                                        ColourClass what, double leastPixels);
 
-/// Finds blobs that are about round and about as large as a ball would be at their place, the
-/// nearest first.
+/// Finds balls by a BallFinder that is made for this picture. Making one takes longer than finding
+/// balls with it: keep one for several pictures of a camera.
 /// @param radius   the ball's radius [m]
 /// @param maxRange greatest distance along the floor [m]
 ORTUNG_API std::vector<SeenBall> findBalls(const ImageView& image, const ColourTable& colours,

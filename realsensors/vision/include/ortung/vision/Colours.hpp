@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct ColourRange {
   double minSaturation = 0.0;  ///< least saturation, in [0, 1]
   double minValue = 0.0;       ///< least brightness, in [0, 1]
   double maxValue = 1.0;       ///< greatest brightness, in [0, 1]
+  double maxSaturation = 1.0;  ///< greatest saturation, in [0, 1]
 
   /// Whether the colour is in this range.
   bool has(const Hsv& colour) const;
@@ -37,7 +39,14 @@ struct ColourRange {
 /// need no range of colours.
 struct Colours {
   ColourRange floor{.hue = 130.0, .hueTolerance = 50.0, .minSaturation = 0.2, .minValue = 0.08};
-  ColourRange ball{.hue = 48.0, .hueTolerance = 16.0, .minSaturation = 0.35, .minValue = 0.3};
+  /// Yellow, in any light.
+  ColourRange ball{.hue = 49.0, .hueTolerance = 19.0, .minSaturation = 0.18, .minValue = 0.2};
+  /// Colours that a worn ball, or one in bright light, may have besides; nothing: it has none.
+  std::optional<ColourRange> paleBall = ColourRange{.hue = 40.0,
+                                                    .hueTolerance = 22.0,
+                                                    .minSaturation = 0.15,
+                                                    .minValue = 0.2,
+                                                    .maxSaturation = 0.5};
 };
 
 /// Estimates the colours of a field from pictures of it: the floor's green is searched in their

@@ -93,8 +93,9 @@ class ORTUNG_API LinePoseSearch {
     std::vector<float> weights;  ///< 1 / sigma^2
   };
   Picked pick(std::span<const LinePlace> points, std::span<const double> sigmas) const;
-  /// Adds the costs of all places of the grid at one heading.
-  void searchHeading(const Picked& picked, double theta, std::vector<LinePose>& found) const;
+  class Cheapest;
+  /// Offers the poses of all places of the grid at one heading.
+  void searchHeading(const Picked& picked, double theta, Cheapest& found) const;
   std::ptrdiff_t cellAt(double x, double y) const;  ///< index of a cell; negative: outside
 
   FieldLines lines_;
