@@ -37,7 +37,8 @@ Message readFix(std::string_view cdr, const SensorId& feature, const std::string
   PoseFixData::Fix fix{toPose2(told.pose), toPlane(told.covariance)};
   bool isSound = isPlausible(fix.pose);
   for (const double value : fix.covariance) isSound = isSound && std::abs(value) <= 1e12;
-  for (const std::size_t diagonal : {0, 4, 8}) isSound = isSound && fix.covariance[diagonal] >= 0.0;
+  for (std::size_t diagonal = 0; diagonal < 9; diagonal += 4)
+    isSound = isSound && fix.covariance[diagonal] >= 0.0;
   if (!isSound) throw std::invalid_argument("a pose or covariance that is none");
   if (toField) fix.pose = toField(fix.pose);
   return {stampOf(told.header), feature, PoseFixData::encode(std::span(&fix, 1))};

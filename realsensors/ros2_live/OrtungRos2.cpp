@@ -83,6 +83,7 @@ void addWorlds(CLI::App& app, Arguments& arguments) {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   LiveLocalization::Options& options = arguments.node.localization;
+  options.localization.keepsTime = true;
   app.add_option("--robot", options.localization.robot,
                  "Robot file (TOML); default: made of the scans and the frames of their scanners");
   app.add_option("--tables", options.localization.tables,

@@ -22,8 +22,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAnswering{300};
 constexpr std::chrono::milliseconds kBetweenCommands{200};
 constexpr int kQuestions = 10;
-constexpr double kFastest = 10.0;      ///< greatest velocity that is taken [m/s]
-constexpr double kFastestTurn = 20.0;  ///< greatest turn rate that is taken [rad/s]
+constexpr std::size_t kAtOnce = 1U << 16;  ///< greatest number of bytes of one read()
+constexpr double kFastest = 10.0;          ///< greatest velocity that is taken [m/s]
+constexpr double kFastestTurn = 20.0;      ///< greatest turn rate that is taken [rad/s]
 constexpr std::int64_t kFarthestTime = DeviceClock::kFarthest / 1000;  ///< [ms]
 
 /// What the robot is told, from whatever thread, until the base hears of it.
@@ -114,7 +115,7 @@ class BaseDevice : public DeviceDriver {
   void read(std::chrono::milliseconds patience, std::vector<DeviceReading>& readings) override {
     tell();
     std::string bytes;
-    if (!port_->read(bytes, patience)) return;
+    if (!port_->read(bytes, patience, kAtOnce)) return;
     lines_.add(bytes);
     while (const auto line = lines_.next()) {
       const auto telegram = base_lines::decode(*line);
@@ -128,6 +129,13 @@ class BaseDevice : public DeviceDriver {
     }
   }
 
+  /// A base that is asked drops what it has not sent yet. Its answer is not waited for: one that
+  /// drops nothing answers behind all of that.
+  void refresh() override {
+    port_->drop();
+    lines_.clear();
+    port_->write(base_lines::encode(base_lines::Question{}));
+  }
   void close() noexcept override { port_.reset(); }
   std::uint64_t refused() const override { return damaged_ + lines_.refused(); }
   RobotCommands* commands() override { return &voice_; }

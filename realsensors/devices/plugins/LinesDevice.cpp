@@ -42,6 +42,8 @@ class LinesDevice : public DeviceDriver {
       isFirst_ = false;
     }
   }
+  /// What a server keeps for a connection ends with it; of a serial line, what was received.
+  void refresh() override { open(); }
   void close() noexcept override { port_.reset(); }
   std::uint64_t refused() const override { return refused_ + lines_.refused(); }
 

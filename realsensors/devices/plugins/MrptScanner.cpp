@@ -1,8 +1,12 @@
 #include "MrptScanner.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "ortung/base/Angles.hpp"
@@ -39,6 +43,9 @@ void MrptScanner::serve(std::span<const SensorData* const> features) {
 
 void MrptScanner::open() {
   beams_.clear();
+  // The program takes long to start, so it is not for a port that is not there.
+  if (name_.starts_with('/') && ::access(name_.c_str(), F_OK) != 0)
+    throw DeviceAbsent(name_ + ": " + std::generic_category().message(errno));
   child_ = std::make_unique<ChildProcess>(findHelper("ortung-mrpt-device", name_), arguments_,
                                           kLongestLine);
   const Clock::time_point end = Clock::now() + kOpening;
@@ -57,6 +64,9 @@ void MrptScanner::read(std::chrono::milliseconds patience, std::vector<DeviceRea
   auto line = child_->next(patience);
   for (int i = 0; line; line = ++i < kMostAtOnce ? child_->next() : std::nullopt)
     take(*line, readings);
+  // Of scans that waited here, none but the newest has the stamp of its arrival.
+  if (readings.size() > 1 && !readings.back().deviceTime)
+    readings.erase(readings.begin(), readings.end() - 1);
 }
 
 void MrptScanner::take(const std::string& line, std::vector<DeviceReading>& readings) {

@@ -5,4 +5,6 @@ namespace ortung {
 DeviceMisfit::~DeviceMisfit() = default;
 DeviceDriver::~DeviceDriver() = default;
 
+void DeviceDriver::refresh() {}
+
 }  // namespace ortung

@@ -31,6 +31,8 @@ const char* toText(DeviceState state) {
       return "frozen";
     case DeviceState::kFailed:
       return "failed";
+    case DeviceState::kLate:
+      return "late";
   }
   return "";
 }
@@ -41,10 +43,15 @@ bool DeviceHealth::mustClose(Timestamp now) const {
   return since(alive, now) > config_.reopenAfter;
 }
 
+bool DeviceHealth::mustRefresh(Timestamp now) const {
+  return isOpen_ && lateSince_ && now >= nextRefresh_;
+}
+
 void DeviceHealth::opened(Timestamp now) {
   isOpen_ = true;
   isMisfit_ = false;
   repeats_ = false;
+  lateSince_.reset();
   openedAt_ = now;
   ++openings_;
 }
@@ -54,7 +61,8 @@ void DeviceHealth::closed(Timestamp now, bool isMisfit, const std::string& why) 
   isMisfit_ = isMisfit;
   hasFailed_ = true;
   reason_ = why;
-  wait_ = wait_ == 0.0 ? config_.openAfter : std::min(2.0 * wait_, config_.openAfterMost);
+  const double most = isMisfit ? config_.misfitAfterMost : config_.openAfterMost;
+  wait_ = std::min(wait_ == 0.0 ? config_.openAfter : 2.0 * wait_, most);
   nextTry_ = now + fromSeconds(wait_);
 }
 
@@ -62,6 +70,7 @@ void DeviceHealth::tookReading(Timestamp now) {
   wait_ = 0.0;
   hasFailed_ = false;
   repeats_ = false;
+  lateSince_.reset();
   lastReading_ = now;
   lastSign_ = now;
   ++readings_;
@@ -74,11 +83,28 @@ void DeviceHealth::sawRepeat(Timestamp now) {
   lastSign_ = now;
 }
 
+void DeviceHealth::sawLate(Timestamp now, std::optional<double> delay) {
+  if (!lateSince_) {
+    lateSince_ = now;
+    refreshWait_ = config_.refreshAfter;
+    nextRefresh_ = now + fromSeconds(refreshWait_);
+  }
+  repeats_ = false;
+  delay_ = delay;
+  lastSign_ = now;
+}
+
+void DeviceHealth::refreshed(Timestamp now) {
+  refreshWait_ = std::min(2.0 * refreshWait_, config_.refreshAfterMost);
+  nextRefresh_ = now + fromSeconds(refreshWait_);
+}
+
 DeviceState DeviceHealth::state(Timestamp now) const {
   if (!isOpen_) {
     if (!hasFailed_) return DeviceState::kOpening;
     return isMisfit_ ? DeviceState::kFailed : DeviceState::kAbsent;
   }
+  if (lateSince_ && since(*lastSign_, now) <= config_.staleAfter) return DeviceState::kLate;
   const Timestamp alive = std::max(openedAt_, lastReading_.value_or(openedAt_));
   if (since(alive, now) > config_.staleAfter)
     return repeats_ ? DeviceState::kFrozen : DeviceState::kStale;
@@ -101,6 +127,10 @@ DeviceStatus DeviceHealth::status(Timestamp now) const {
       break;
     case DeviceState::kStale:
       status.reason = "no reading for " + seconds(silent);
+      break;
+    case DeviceState::kLate:
+      status.reason = delay_ ? "its readings are " + seconds(*delay_) + " old when they arrive"
+                             : "its readings were held up, and come all at once";
       break;
     case DeviceState::kFrozen:
       status.reason = "the same reading for " + seconds(silent);

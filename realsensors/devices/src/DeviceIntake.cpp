@@ -1,12 +1,14 @@
 #include "ortung/devices/DeviceIntake.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 namespace ortung {
 namespace {
 
-constexpr Timestamp kSecond = 1'000'000;
+/// Share of a second's readings that may come at once: those of a line that stalled for so long.
+constexpr double kAtOnce = 0.5;
 
 }  // namespace
 
@@ -32,16 +34,21 @@ std::optional<Message> DeviceIntake::take(DeviceReading reading, Timestamp arriv
     health_.sawRepeat(arrival);
     return std::nullopt;
   }
+  hasClock_ = reading.deviceTime.has_value();
+  const std::optional<Timestamp> stamp =
+      hasClock_ ? clock_.toHost(*reading.deviceTime, arrival) : clock_.toHost(arrival);
+  if (!stamp) {
+    ++late_;
+    health_.sawLate(arrival, clock_.delay());
+    return std::nullopt;
+  }
   if (isFlood(feature, arrival)) {
     ++flooded_;
     return std::nullopt;
   }
-  hasClock_ = reading.deviceTime.has_value();
-  const Timestamp stamp =
-      hasClock_ ? clock_.toHost(*reading.deviceTime, arrival) : clock_.toHost(arrival);
   feature.deviceTime = reading.deviceTime;
   health_.tookReading(arrival);
-  return Message{stamp, feature.data->id(), std::move(reading.words)};
+  return Message{*stamp, feature.data->id(), std::move(reading.words)};
 }
 
 /// Checks the time, and the words: those that the feature refuses would end the readers of the
@@ -74,12 +81,19 @@ bool DeviceIntake::isFrozen(Feature& feature, const DeviceReading& reading) cons
   return feature.equal > config_.repeatsOfFrozen;
 }
 
+/// Readings that pass are spread evenly over a flood, so that the newest of them is never old, and
+/// none is missing after it.
 bool DeviceIntake::isFlood(Feature& feature, Timestamp arrival) const {
-  if (arrival - feature.second >= kSecond || arrival < feature.second) {
-    feature.second = arrival;
-    feature.inSecond = 0;
-  }
-  return static_cast<double>(++feature.inSecond) > config_.mostPerSecond;
+  const double most = std::max(1.0, kAtOnce * config_.mostPerSecond);
+  const double since = feature.counted ? toSeconds(arrival - *feature.counted) : 0.0;
+  feature.allowed =
+      feature.counted
+          ? std::min(most, feature.allowed + std::max(0.0, since) * config_.mostPerSecond)
+          : most;
+  feature.counted = arrival;
+  if (feature.allowed < 1.0) return true;
+  feature.allowed -= 1.0;
+  return false;
 }
 
 void DeviceIntake::opened(Timestamp now) {
@@ -92,9 +106,12 @@ DeviceStatus DeviceIntake::status(Timestamp now) const {
   DeviceStatus status = health_.status(now);
   status.refused = refused_;
   status.repeated = repeated_;
+  status.late = late_;
   status.flooded = flooded_;
   status.clockJumps = clock_.jumps();
-  if (hasClock_) status.driftPpm = clock_.driftPpm();
+  if (!hasClock_) return status;
+  status.driftPpm = clock_.driftPpm();
+  status.driftsTooMuch = clock_.driftsTooMuch();
   return status;
 }
 

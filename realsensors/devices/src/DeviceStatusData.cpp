@@ -43,20 +43,21 @@ Message DeviceStatusData::message(const SensorId& id, Timestamp now, const Devic
 
 Format DeviceStatusData::format() const {
   std::vector<const char*> states;
-  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(DeviceState::kFailed); ++i)
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(DeviceState::kLast); ++i)
     states.push_back(toText(static_cast<DeviceState>(i)));
   return Format(kFormat).with("status", states);
 }
 
 std::string DeviceStatusData::wordsHelp() const {
-  return "[0 opening, 1 absent, 2 running, 3 stale, 4 frozen, 5 failed; readings; rate 1/1000 a "
+  return "[0 opening, 1 absent, 2 running, 3 stale, 4 frozen, 5 failed, 6 late; readings; rate "
+         "1/1000 a "
          "second; age ms, 4294967295: none; refused; repeated; flooded; late; clock jumps]";
 }
 
 void DeviceStatusData::check(std::span<const std::uint32_t> words) const {
-  if (words.size() != kWords || words[0] > static_cast<std::uint32_t>(DeviceState::kFailed))
+  if (words.size() != kWords || words[0] > static_cast<std::uint32_t>(DeviceState::kLast))
     throw std::invalid_argument("expected " + std::to_string(kWords) +
-                                " words, the first one at most 5");
+                                " words, the first one at most 6");
 }
 
 void DeviceStatusData::decode(std::span<const std::uint32_t>) {}

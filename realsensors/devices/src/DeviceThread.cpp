@@ -57,6 +57,14 @@ struct DeviceThread::Shared {
     const std::lock_guard lock(mutex);
     return intake.health().mustClose(clock());
   }
+  /// Returns whether the driver must refresh the device now, which counts as done.
+  bool mustRefresh() {
+    const std::lock_guard lock(mutex);
+    const Timestamp now = clock();
+    const bool isDue = intake.health().mustRefresh(now);
+    if (isDue) intake.health().refreshed(now);
+    return isDue;
+  }
   void opened() {
     const std::lock_guard lock(mutex);
     intake.opened(clock());
@@ -88,6 +96,7 @@ struct DeviceThread::Shared {
     }
     take(std::move(readings));
     if (mustClose()) throw DeviceAbsent("gave no reading for too long");
+    if (mustRefresh()) driver->refresh();
   }
 };
 
@@ -117,7 +126,7 @@ void DeviceThread::run(const std::stop_token& stop, Shared& shared) {
 }
 
 DeviceThread::DeviceThread(std::unique_ptr<DeviceDriver> driver,
-                           std::vector<const SensorData*> features, const Config& config,
+                           const std::vector<const SensorData*>& features, const Config& config,
                            std::function<Timestamp()> clock, std::function<void(Message)> sink)
     : shared_(new Shared{.driver = std::move(driver),
                          .name = config.name,
@@ -125,7 +134,7 @@ DeviceThread::DeviceThread(std::unique_ptr<DeviceDriver> driver,
                          .sink = std::move(sink),
                          .mutex = {},
                          .wake = {},
-                         .intake = DeviceIntake(std::move(features), config.intake)}) {
+                         .intake = DeviceIntake(features, config.intake)}) {
   const SignalsElsewhere signals;
   thread_ = std::jthread([shared = shared_](const std::stop_token& stop) {
     run(stop, *shared);

@@ -27,25 +27,26 @@ DevicesSource::~DevicesSource() = default;
 bool DevicesSource::isAtEnd() const { return end_ && clock_() >= *end_; }
 
 std::optional<Message> DevicesSource::poll(std::chrono::milliseconds patience) {
-  if (isAtEnd()) return std::nullopt;
+  if (isAtEnd()) finish();
   if (end_) {
-    const Timestamp left = (*end_ - clock_()) / 1000 + 1;
+    const Timestamp left = std::max<Timestamp>(0, (*end_ - clock_()) / 1000 + 1);
     patience = std::min(patience, std::chrono::milliseconds(left));
   }
   return devices_->next(patience);
 }
 
 bool DevicesSource::next(Message& message) {
-  while (!isAtEnd()) {
+  while (true) {
+    const bool wasAtEnd = isAtEnd();
     const Timestamp until = clock_() + 1000 * kPatience.count() / 2;
     if (auto reading = poll(kPatience)) {
       message = std::move(*reading);
       return true;
     }
+    if (wasAtEnd) return false;
     if (clock_() < until && !isAtEnd())
       throw std::runtime_error("waiting for the robot's devices was interrupted");
   }
-  return false;
 }
 
 std::string DevicesSource::remark() const {

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr int kConnecting = 2000;  // longest wait for a connection [ms]
 constexpr int kWriting = 500;      // longest wait for a write [ms]
+constexpr int kMostBlocks = 256;   // of 64 KiB that are dropped at once
 constexpr std::string_view kTcp = "tcp:";
 
 std::string reason(int error) { return std::generic_category().message(error); }
@@ -133,6 +135,14 @@ bool Port::read(std::string& bytes, std::chrono::milliseconds patience, std::siz
   const bool isNothing = error == EAGAIN || error == EINTR;
   if (count < 0 && isNothing && (one.revents & (POLLHUP | POLLERR)) == 0) return false;
   throw DeviceAbsent(name_ + ": " + (count == 0 || isNothing ? "was closed" : reason(error)));
+}
+
+/// What a server still sends while this reads is left: it is bounded, so that a flood is no trap.
+void Port::drop() {
+  if (::tcflush(descriptor_, TCIFLUSH) == 0) return;
+  std::array<char, 1U << 16> block;
+  for (int i = 0; i < kMostBlocks; ++i)
+    if (::read(descriptor_, block.data(), block.size()) <= 0) return;
 }
 
 void Port::write(std::string_view bytes) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 
@@ -27,6 +28,7 @@ DeviceSettings readDevice(const Parameters& table, const std::filesystem::path& 
   DeviceIntake::Config& intake = device.intake;
   intake.health.staleAfter = table.numberOr("stale_after_s", 1.0, {0.01, 3600.0});
   intake.health.reopenAfter = std::max(5.0, 3.0 * intake.health.staleAfter);
+  intake.clock.lateAfter = table.numberOr("late_after_s", intake.clock.lateAfter, {0.01, 60.0});
   intake.mostPerSecond = table.numberOr("most_per_s", intake.mostPerSecond, {1.0, 1e5});
   if (table.has("latency_s")) device.latency = table.number("latency_s", {0.0, 10.0});
   if (table.has("repeats"))
@@ -109,10 +111,16 @@ RobotDevices::~RobotDevices() {
 void RobotDevices::push(std::size_t device, Message message) {
   {
     const std::lock_guard lock(mutex_);
+    if (isFinished_) return;
     merger_.push(device, std::move(message));
   }
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = ::write(wake_, &one, sizeof(one));
+}
+
+void RobotDevices::finish() {
+  const std::lock_guard lock(mutex_);
+  isFinished_ = true;
 }
 
 /// Lets readings wait for running devices only.
@@ -131,6 +139,7 @@ std::optional<Message> RobotDevices::next(std::chrono::milliseconds patience) {
     Timestamp until = end;
     {
       const std::lock_guard lock(mutex_);
+      if (isFinished_) return merger_.pop(std::numeric_limits<Timestamp>::max());
       if (std::optional<Message> message = merger_.pop(clock_())) return message;
       if (const auto due = merger_.due()) until = std::min(until, *due);
     }
@@ -149,7 +158,7 @@ std::vector<DeviceStatus> RobotDevices::status() const {
   for (std::size_t i = 0; i < threads_.size(); ++i) {
     all.push_back(threads_[i]->status());
     const std::lock_guard lock(mutex_);
-    all.back().late = merger_.late(i) + merger_.lost(i);
+    all.back().late += merger_.late(i) + merger_.lost(i);
   }
   return all;
 }

@@ -38,6 +38,7 @@ void EmulatedBase::receive(std::string_view bytes, Timestamp now) {
     if (!telegram) continue;
     if (std::holds_alternative<base_lines::Question>(*telegram)) {
       wasAsked_ = true;
+      dropOutput(now);
       send(base_lines::encode(base_lines::Identity{1, sonars_.size()}), now);
     } else if (const auto* velocity = std::get_if<base_lines::Velocity>(&*telegram)) {
       velocity_ = *velocity;

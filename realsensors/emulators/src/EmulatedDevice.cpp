@@ -21,6 +21,11 @@ void EmulatedDevice::send(std::string telegram, Timestamp now) {
   output_.push_back({free_, {std::move(telegram), baud()}});
 }
 
+void EmulatedDevice::dropOutput(Timestamp now) {
+  output_.clear();
+  free_ = std::min(free_, now);
+}
+
 std::vector<EmulatedDevice::Telegram> EmulatedDevice::takeOutput(Timestamp now) {
   std::vector<Telegram> out;
   while (!output_.empty() && output_.front().due <= now) {

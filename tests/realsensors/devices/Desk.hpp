@@ -48,10 +48,11 @@ class Rehearsed : public Source {
 };
 
 /// Faults: the cable is pulled for so many seconds, again and again, so that a computer that was
-/// too busy to open the device before the first time sees the next one.
+/// too busy to open the device before the first time sees the next one. It stays plugged in for
+/// twice as long each time, for computers that take long to open it.
 inline std::vector<std::string> pulledAgainAndAgain(int seconds) {
   std::vector<std::string> faults;
-  for (int from = 1; from < 60; from += seconds + 3)
+  for (int from = 1, plugged = 3; from < 60; from += seconds + plugged, plugged *= 2)
     faults.push_back("unplug@" + std::to_string(from) + "-" + std::to_string(from + seconds));
   return faults;
 }

@@ -202,6 +202,22 @@ TEST_F(DeskTest, AFloodIsCutDownAndDrownsNobody) {
   desk.readUntil(0, [](const DeviceStatus& status) { return status.rate < 60.0; });
 }
 
+// At this speed of the line the flood's readings would come for a minute.
+TEST_F(DeskTest, AFloodedDeviceIsLateUntilItDropsWhatWaits) {
+  desk.add(base(), line("base"), {"flood@1-2"});
+  desk.add(lines(), line("compass"));
+  DevicesSource& devices = desk.start(robotWithCompass());
+  desk.read(kWheels, 3);
+  desk.readUntil(0, [](const DeviceStatus& status) { return status.state == DeviceState::kLate; });
+  const auto meanwhile = desk.readUntil(
+      0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; });
+  EXPECT_GE(meanwhile.at(toText(kCompass)), 3U);
+  expectAsGiven(desk.read(kWheels, 10));
+  EXPECT_GT(devices.status()[0].late, 10U);
+  EXPECT_EQ(devices.status()[0].clockJumps, 0U);
+  EXPECT_EQ(devices.status()[0].openings, 1U);
+}
+
 TEST_F(DeskTest, ASilentDeviceGoesStaleAndRunsAgain) {
   desk.add(base(), line("base"), {"silent@1-3"});
   desk.add(lines(), line("compass"));

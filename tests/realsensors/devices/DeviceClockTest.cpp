@@ -23,7 +23,7 @@ TEST(DeviceClock, FindsTheOffsetOfADeviceBelowItsDelays) {
     double delay = -8e3 * std::log(1.0 - random.uniform());
     if (random.uniform() < 0.02) delay += 2e5;
     const Timestamp truth = t + kOffset;
-    const Timestamp stamp = clock.toHost(t, truth + kLeast + static_cast<Timestamp>(delay));
+    const Timestamp stamp = *clock.toHost(t, truth + kLeast + static_cast<Timestamp>(delay));
     if (t > 10 * kSecond) error = std::max(error, std::abs(stamp - (truth + kLeast)));
   }
   // Of 20 delays a second, the shortest in 10 s is below 8 ms / 200 = 40 us in the mean.
@@ -39,7 +39,7 @@ TEST(DeviceClock, FollowsAClockThatDrifts) {
     for (Timestamp t = 0; t < 300 * kSecond; t += 100 * kMillisecond) {
       const auto device = static_cast<Timestamp>(static_cast<double>(t) * (1.0 + ppm * 1e-6));
       const auto delay = static_cast<Timestamp>(3000.0 * random.uniform());
-      const Timestamp stamp = clock.toHost(device, t + delay);
+      const Timestamp stamp = *clock.toHost(device, t + delay);
       if (t > 60 * kSecond) error = std::max(error, std::abs(stamp - t));
     }
     EXPECT_LT(error, kMillisecond) << ppm;  // an offset alone would be off by 24 ms at the end
@@ -54,7 +54,7 @@ TEST(DeviceClock, NeverRunsBackwardsAndNeverAhead) {
   for (Timestamp t = 0; t < 100 * kSecond; t += 20 * kMillisecond) {
     const auto device = t + static_cast<Timestamp>(random.uniform(-3000.0, 3000.0));
     const Timestamp arrival = t + kSecond + static_cast<Timestamp>(random.uniform(0.0, 50'000.0));
-    const Timestamp stamp = clock.toHost(device, arrival);
+    const Timestamp stamp = *clock.toHost(device, arrival);
     EXPECT_GT(stamp, last);
     EXPECT_LE(stamp, std::max(arrival, last + 1));
     last = stamp;
@@ -63,20 +63,21 @@ TEST(DeviceClock, NeverRunsBackwardsAndNeverAhead) {
 
 TEST(DeviceClock, GivesReadingsOfOneDeviceTimeOneStamp) {
   DeviceClock clock;
-  const Timestamp stamp = clock.toHost(70 * kSecond, kSecond);
+  const Timestamp stamp = *clock.toHost(70 * kSecond, kSecond);
   EXPECT_EQ(clock.toHost(70 * kSecond, kSecond + 700), stamp);
-  EXPECT_GT(clock.toHost(70 * kSecond + 1, kSecond + 700), stamp);
+  EXPECT_GT(*clock.toHost(70 * kSecond + 1, kSecond + 700), stamp);
 }
 
 /// A device that measures ten times a second, whose clock is set by @p jump after 20 s.
-/// Returns the largest error of stamps that are 3 s or more behind the jump [us].
+/// Returns the largest error of stamps [us]; readings may be late for 3 s behind the jump.
 Timestamp errorAfter(Timestamp jump, std::uint64_t& jumps) {
   DeviceClock clock;
   Timestamp error = 0;
   for (Timestamp t = 0; t < 40 * kSecond; t += 100 * kMillisecond) {
     const Timestamp device = t + (t >= 20 * kSecond ? jump : 0);
-    const Timestamp stamp = clock.toHost(device, t + kMillisecond);
-    if (t >= 23 * kSecond) error = std::max(error, std::abs(stamp - (t + kMillisecond)));
+    const auto stamp = clock.toHost(device, t + kMillisecond);
+    EXPECT_TRUE(stamp || t < 23 * kSecond) << t;
+    if (stamp) error = std::max(error, std::abs(*stamp - (t + kMillisecond)));
   }
   jumps = clock.jumps();
   return error;
@@ -96,7 +97,9 @@ TEST(DeviceClock, TakesAStallOfTheLineForNoJump) {
     // From second 10 on nothing comes for 1.5 s, then all of it at once.
     const bool isHeldUp = t >= 10 * kSecond && t < 10 * kSecond + 1500 * kMillisecond;
     const Timestamp arrival = isHeldUp ? 10 * kSecond + 1500 * kMillisecond : t;
-    EXPECT_NEAR(static_cast<double>(clock.toHost(t, arrival) - t), 0.0, 10.0);
+    const auto stamp = clock.toHost(t, arrival);
+    EXPECT_EQ(stamp.has_value(), arrival - t <= 500 * kMillisecond) << t;
+    EXPECT_NEAR(static_cast<double>(stamp.value_or(t) - t), 0.0, 10.0);
   }
   EXPECT_EQ(clock.jumps(), 0U);
 }
@@ -119,33 +122,35 @@ TEST(DeviceClock, LivesWithTheClocksOfHostileDevices) {
   Timestamp arrival = 0;
   for (const Timestamp device : {INT64_MIN, INT64_MAX, Timestamp{0}, INT64_MAX, INT64_MIN + 1}) {
     arrival += kSecond;
-    const Timestamp stamp = clock.toHost(device, arrival);
-    EXPECT_GT(stamp, last);
-    EXPECT_LE(stamp, arrival);
-    last = stamp;
+    const auto stamp = clock.toHost(device, arrival);
+    if (!stamp) continue;
+    EXPECT_GT(*stamp, last);
+    EXPECT_LE(*stamp, arrival);
+    last = *stamp;
   }
 }
 
 /// Stamps of a device whose clock shows, at each arrival, what @p device says; ten a second.
-/// Returns the greatest age of a stamp [us].
+/// Returns the greatest age of a stamp [us]; a reading without one is not used.
 template <class Device>
 Timestamp greatestAge(const Device& device) {
   DeviceClock clock;
   Timestamp age = 0;
   Timestamp last = -1;
   for (Timestamp arrival = 0; arrival < 120 * kSecond; arrival += 100 * kMillisecond) {
-    const Timestamp stamp = clock.toHost(device(arrival), arrival);
-    EXPECT_GE(stamp, last);
-    EXPECT_LE(stamp, arrival);
-    age = std::max(age, arrival - stamp);
-    last = stamp;
+    const auto stamp = clock.toHost(device(arrival), arrival);
+    if (!stamp) continue;
+    EXPECT_GE(*stamp, last);
+    EXPECT_LE(*stamp, arrival);
+    age = std::max(age, arrival - *stamp);
+    last = *stamp;
   }
   return age;
 }
 
 TEST(DeviceClock, StaysNearTheHostsTimeWhateverTheDeviceShows) {
   constexpr Timestamp kHour = 3600 * kSecond;
-  constexpr Timestamp kLongest = 10'100 * kMillisecond;
+  constexpr Timestamp kLongest = 500 * kMillisecond;
   const auto backAndForth = [](Timestamp t) { return t + (t / kSecond % 2) * 5 * kHour; };
   EXPECT_LT(greatestAge(backAndForth), 100 * kMillisecond);
   EXPECT_LE(greatestAge([](Timestamp) { return kHour; }), kLongest);
@@ -158,11 +163,16 @@ TEST(DeviceClock, StaysNearTheHostsTimeWhateverTheDeviceShows) {
 TEST(DeviceClock, GoesOnAtTheHostsTimeAfterItStoodStill) {
   DeviceClock clock;
   EXPECT_EQ(clock.toHost(70 * kSecond, kSecond), kSecond);
-  // The device's clock is where it was an hour ago.
-  EXPECT_EQ(clock.toHost(70 * kSecond + 100, 3601 * kSecond), 3601 * kSecond);
+  // An hour later the device's clock is where it was: it may have been off, or the line was.
+  const auto later = [&](Timestamp t) {
+    return clock.toHost(70 * kSecond + t, 3601 * kSecond + t);
+  };
+  Timestamp t = 100;
+  while (!later(t) && t < 10 * kSecond) t += 100 * kMillisecond;
+  EXPECT_NEAR(toSeconds(t), 2.0, 0.2);  // a stall would have come to its end by then
   EXPECT_EQ(clock.jumps(), 1U);
-  EXPECT_EQ(clock.toHost(70 * kSecond + 100, 7201 * kSecond), 7201 * kSecond);
-  EXPECT_EQ(clock.jumps(), 2U);
+  t += kSecond;
+  EXPECT_EQ(later(t), 3601 * kSecond + t);
 }
 
 }  // namespace

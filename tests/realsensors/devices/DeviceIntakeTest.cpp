@@ -93,11 +93,15 @@ TEST_F(DeviceIntakeTest, TakesNoMoreOfAFloodThanItMay) {
   config.mostPerSecond = 50;
   DeviceIntake intake({&scan}, config);
   intake.opened(0);
-  std::size_t taken = 0;
+  std::vector<Timestamp> taken;
   for (Timestamp t = 0; t < 3 * kSecond; t += 100)
-    taken += intake.take(scanOf(static_cast<std::uint32_t>(t)), t) ? 1 : 0;
-  EXPECT_EQ(taken, 150U);
-  EXPECT_EQ(intake.status(3 * kSecond).flooded, 30'000U - 150U);
+    if (intake.take(scanOf(static_cast<std::uint32_t>(t)), t)) taken.push_back(t);
+  // Half a second's worth at once, then one each 20 ms.
+  EXPECT_NEAR(static_cast<double>(taken.size()), 25.0 + 150.0, 1.0);
+  EXPECT_EQ(intake.status(3 * kSecond).flooded, 30'000U - taken.size());
+  for (std::size_t i = 26; i < taken.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(taken[i] - taken[i - 1]), 20'000.0, 100.0);
+  EXPECT_TRUE(intake.take(scanOf(1), 3 * kSecond + 50'000)) << "nothing is missing after it";
 }
 
 TEST_F(DeviceIntakeTest, StampsGoOnRisingWhenADeviceWithANewClockComesBack) {
@@ -141,6 +145,9 @@ TEST(DeviceHealth, TriesAgainALittleLaterEachTime) {
     EXPECT_TRUE(health.mayOpen(now));
   }
   EXPECT_EQ(waits, (std::vector<double>{0.5, 1.0, 2.0, 4.0, 4.0, 4.0}));
+  health.closed(now, true, "other beams");  // which seldom changes by itself
+  EXPECT_EQ(toSeconds(health.nextTry() - now), 8.0);
+  health.closed(now, false, "no such device");
   EXPECT_EQ(health.state(now), DeviceState::kAbsent);
   EXPECT_EQ(health.status(now).reason, "no such device");
   health.opened(now);

@@ -50,7 +50,7 @@ TEST(DeviceStatusData, RefusesOtherWords) {
   const DeviceStatusData data(0, "x");
   std::vector<std::uint32_t> words(9, 5);
   EXPECT_NO_THROW(data.checkData(words));
-  words[0] = 6;
+  words[0] = 7;
   EXPECT_THROW(data.checkData(words), std::invalid_argument);
   words.assign(8, 0);
   EXPECT_THROW(data.checkData(words), std::invalid_argument);
@@ -59,9 +59,9 @@ TEST(DeviceStatusData, RefusesOtherWords) {
 }
 
 TEST(DeviceStatusData, ItsFormatNamesTheStates) {
-  EXPECT_EQ(
-      DeviceStatusData(0, "x").format().list("status"),
-      (std::vector<std::string>{"opening", "absent", "running", "stale", "frozen", "failed"}));
+  EXPECT_EQ(DeviceStatusData(0, "x").format().list("status"),
+            (std::vector<std::string>{"opening", "absent", "running", "stale", "frozen", "failed",
+                                      "late"}));
 }
 
 TEST(DeviceHealth, AReopenedDeviceHasNotMeasuredYet) {
@@ -124,7 +124,8 @@ TEST(DeviceStates, HaveAWordEach) {
                                     {DeviceState::kRunning, "running"},
                                     {DeviceState::kStale, "stale"},
                                     {DeviceState::kFrozen, "frozen"},
-                                    {DeviceState::kFailed, "failed"}})
+                                    {DeviceState::kFailed, "failed"},
+                                    {DeviceState::kLate, "late"}})
     EXPECT_STREQ(toText(state), word);
 }
 
@@ -139,7 +140,8 @@ TEST(DeviceIntakeLimits, RefuseFeaturesThatAreNotThere) {
   EXPECT_TRUE(intake.status(kSecond).driftPpm) << "it has a clock";
 }
 
-// A second is counted from its first reading on; the next one has its own readings.
+// At most one at once here, and two a second; what one second does not use is not added to the
+// next.
 TEST(DeviceIntakeLimits, EachSecondHasItsReadings) {
   const OdometryData odometry({"o", "odometry", "pose"});
   DeviceIntake::Config config;
@@ -148,10 +150,10 @@ TEST(DeviceIntakeLimits, EachSecondHasItsReadings) {
   intake.opened(0);
   std::string taken;
   for (const Timestamp t :
-       {1'500'000, 1'600'000, 1'700'000, 2'499'999, 2'500'000, 2'600'000, 2'700'000})
+       {1'500'000, 1'600'000, 1'700'000, 2'250'000, 2'500'000, 2'800'000, 9'000'000, 9'100'000})
     taken += intake.take({0, OdometryData::encode({}), std::nullopt}, t) ? '+' : '-';
-  EXPECT_EQ(taken, "++--++-");
-  EXPECT_EQ(intake.status(2 * kSecond).flooded, 3u);
+  EXPECT_EQ(taken, "+--+-++-");
+  EXPECT_EQ(intake.status(9 * kSecond).flooded, 4u);
 }
 
 }  // namespace

@@ -49,6 +49,17 @@ struct Base : testing::Test {
   EmulatedBase base;
 };
 
+TEST(BaseOutput, IsDroppedWhenTheBaseIsAsked) {
+  const OdometryData wheels(kWheels);
+  const std::vector<const SensorData*> features{&wheels};
+  EmulatedBase base(features, 9600);
+  for (int i = 0; i < 100; ++i) base.sense({0, kWheels, OdometryData::encode({})}, 0);
+  base.receive(encode(base_lines::Question{}), 100);
+  const auto said = base.takeOutput(1'000'000);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said.front().bytes, encode(Identity{1, 0}));
+}
+
 TEST_F(Base, AnswersWhatItIsAndMeasuresFromThenOn) {
   EXPECT_FALSE(base.isMeasuring());
   base.receive("noise\r\n" + encode(base_lines::Question{}).substr(0, 4), 0);

@@ -141,8 +141,10 @@ TEST_F(HostileDevicesTest, AClockThatJumpsBackAndForthHarmsNoStamps) {
         return wheelsAt(static_cast<std::uint32_t>(100 * n) + hours, 0.5);
       },
       20);
+  // It has two clocks: readings of the one that is ahead are used, those of the other come late.
   EXPECT_GT(messages[toText(kWheels)].size(), 3U);
-  EXPECT_GT(devices->status()[0].clockJumps, 3U);
+  EXPECT_GT(devices->status()[0].late, 3U);
+  EXPECT_GE(devices->status()[0].clockJumps, 1U);
 }
 
 TEST_F(HostileDevicesTest, AClockThatStandsStillGivesOneReading) {

@@ -46,6 +46,7 @@ TEST_F(RobotDevicesTest, HaveDefaults) {
   EXPECT_EQ(devices[0].parameters.text("port"), "/dev/ttyS0");
   EXPECT_EQ(devices[0].intake.health.staleAfter, 1.0);
   EXPECT_EQ(devices[0].intake.health.reopenAfter, 5.0);
+  EXPECT_EQ(devices[0].intake.clock.lateAfter, 0.5);
   EXPECT_FALSE(devices[0].latency);
   EXPECT_FALSE(devices[0].repeats);
   ASSERT_EQ(devices[0].features.size(), 1u);
@@ -53,10 +54,11 @@ TEST_F(RobotDevicesTest, HaveDefaults) {
 }
 
 TEST_F(RobotDevicesTest, TakeTheirSettingsFromTheirTable) {
-  const auto devices =
-      read(wheels(", stale_after_s = 2.5, most_per_s = 20, latency_s = 0.25, repeats = 7"));
+  const auto devices = read(wheels(
+      ", stale_after_s = 2.5, late_after_s = 3, most_per_s = 20, latency_s = 0.25, repeats = 7"));
   EXPECT_EQ(devices[0].intake.health.staleAfter, 2.5);
   EXPECT_EQ(devices[0].intake.health.reopenAfter, 7.5) << "three times as long";
+  EXPECT_EQ(devices[0].intake.clock.lateAfter, 3.0);
   EXPECT_EQ(devices[0].intake.mostPerSecond, 20.0);
   EXPECT_EQ(devices[0].latency, 0.25);
   EXPECT_EQ(devices[0].repeats, 7u);
@@ -83,8 +85,9 @@ TEST_F(RobotDevicesTest, TheFirstTableHasTheSettings) {
 
 TEST_F(RobotDevicesTest, RefuseSettingsOutOfRange) {
   for (const std::string setting :
-       {"stale_after_s = 0.005", "stale_after_s = 3601", "most_per_s = 0.5", "most_per_s = 100001",
-        "latency_s = -0.1", "latency_s = 10.5", "repeats = -1", "repeats = 1.5"}) {
+       {"late_after_s = 0.005", "late_after_s = 61", "stale_after_s = 0.005",
+        "stale_after_s = 3601", "most_per_s = 0.5", "most_per_s = 100001", "latency_s = -0.1",
+        "latency_s = 10.5", "repeats = -1", "repeats = 1.5"}) {
     const std::string key = setting.substr(0, setting.find(' '));
     EXPECT_NE(complaint(wheels(", " + setting)).find(key), std::string::npos)
         << complaint(wheels(", " + setting));
@@ -147,9 +150,12 @@ class TwoCompasses : public RobotDevicesTest {
     EXPECT_TRUE(test::comesTrue("the reading is there",
                                 [&] { return devices_->status()[device].readings == before + 1; }));
   }
-  /// The next reading that need not wait, as "DEVICE at SECONDS".
-  std::string next() {
-    const auto message = devices_->next(std::chrono::milliseconds(0));
+  /// The next reading that need not wait, as "DEVICE at SECONDS", if it is there now.
+  std::string next() { return next(std::chrono::milliseconds(0)); }
+  /// The same where one must come: it is counted a moment before it can be had.
+  std::string soon() { return next(std::chrono::seconds(10)); }
+  std::string next(std::chrono::milliseconds patience) {
+    const auto message = devices_->next(patience);
     return message ? message->id.model + " at " + std::to_string(message->stamp / kSecond) : "none";
   }
   static constexpr double kWait = 100.0;  // [s]
@@ -161,28 +167,41 @@ class TwoCompasses : public RobotDevicesTest {
 
 TEST_F(TwoCompasses, WaitForOneAnotherUpToTheTimeThatTheyMay) {
   measure(0, 1);
-  EXPECT_EQ(next(), "c0 at 1") << "nobody waits for a device's first reading";
+  EXPECT_EQ(soon(), "c0 at 1") << "nobody waits for a device's first reading";
   measure(1, 2);
   EXPECT_EQ(next(), "none") << "the first one may have one of before";
   measure(0, 3);
-  EXPECT_EQ(next(), "c1 at 2");
+  EXPECT_EQ(soon(), "c1 at 2");
   EXPECT_EQ(next(), "none");
   now_ = 103 * kSecond - 1;
   EXPECT_EQ(next(), "none");
   now_ = 103 * kSecond;
-  EXPECT_EQ(next(), "c0 at 3");
+  EXPECT_EQ(soon(), "c0 at 3");
+}
+
+TEST_F(TwoCompasses, GiveWhatWaitsAtTheEndOfTheRun) {
+  measure(0, 1);
+  measure(1, 2);
+  measure(1, 3);
+  EXPECT_EQ(soon(), "c0 at 1");
+  EXPECT_EQ(next(), "none");
+  devices_->finish();
+  measure(0, 4);
+  EXPECT_EQ(soon(), "c1 at 2");
+  EXPECT_EQ(soon(), "c1 at 3");
+  EXPECT_EQ(next(), "none") << "the one at 4 s came behind the end";
 }
 
 TEST_F(TwoCompasses, DoNotWaitForOneThatIsGone) {
   measure(0, 1);
   measure(1, 1);
-  EXPECT_EQ(next(), "c0 at 1");
-  EXPECT_EQ(next(), "c1 at 1");
+  EXPECT_EQ(soon(), "c0 at 1");
+  EXPECT_EQ(soon(), "c1 at 1");
   ends_[0].unplug();
   EXPECT_TRUE(test::comesTrue("it is gone",
                               [&] { return devices_->status()[0].state == DeviceState::kAbsent; }));
   measure(1, 2);
-  EXPECT_EQ(next(), "c1 at 2");
+  EXPECT_EQ(soon(), "c1 at 2");
 }
 
 }  // namespace

@@ -54,6 +54,9 @@ class ORTUNG_API DeviceDriver {
   virtual void open() = 0;
   /// Appends what the device has measured; waits for it for at most @p patience.
   virtual void read(std::chrono::milliseconds patience, std::vector<DeviceReading>& readings) = 0;
+  /// Drops what the device has measured and not delivered yet, as far as that can be done: readings
+  /// have been arriving too late, so something holds them up.
+  virtual void refresh();
   /// Disconnects. Also called for a device that is not open.
   virtual void close() noexcept = 0;
 

@@ -14,7 +14,7 @@
 namespace ortung {
 
 /// Filters the readings of one device: stamps them by the host's clock, and drops those that are
-/// invalid, repeated or too many. It has no clock: times are passed in. Not thread-safe.
+/// invalid, repeated, late or too many. It has no clock: times are passed in. Not thread-safe.
 class ORTUNG_API DeviceIntake {
  public:
   struct Config {
@@ -36,7 +36,8 @@ class ORTUNG_API DeviceIntake {
   DeviceHealth& health() { return health_; }
   /// Reports that the device was opened: its clock may have restarted.
   void opened(Timestamp now);
-  /// Returns the status without the name, and without what the driver refused and what was late.
+  /// Returns the status without the name, and without what the driver refused and what was passed
+  /// on too late.
   DeviceStatus status(Timestamp now) const;
 
  private:
@@ -44,9 +45,9 @@ class ORTUNG_API DeviceIntake {
     const SensorData* data;
     std::optional<Timestamp> deviceTime;
     std::vector<std::uint32_t> words;
-    std::size_t equal = 0;     ///< number of consecutive readings equal to the newest
-    Timestamp second = 0;      ///< begin of the second in which readings are counted
-    std::size_t inSecond = 0;  ///< number of readings in that second
+    std::size_t equal = 0;             ///< number of consecutive readings equal to the newest
+    std::optional<Timestamp> counted;  ///< arrival of the last reading that was not late
+    double allowed = 0.0;              ///< number of readings that may pass at that time
   };
   /// Whether the device's time is one, and the feature accepts the words.
   static bool isSense(const Feature& feature, const DeviceReading& reading);
@@ -64,6 +65,7 @@ class ORTUNG_API DeviceIntake {
   bool hasClock_ = false;       ///< whether the newest reading has a device time
   std::uint64_t refused_ = 0;   ///< number of invalid readings
   std::uint64_t repeated_ = 0;  ///< number of repeated readings
+  std::uint64_t late_ = 0;      ///< number of readings that were too old
   std::uint64_t flooded_ = 0;   ///< number of readings that came too fast
 };
 

@@ -27,7 +27,7 @@ class ORTUNG_API DeviceThread {
   /// @param features the features that the driver fills; borrowed
   /// @param clock returns the host's time; called from the thread
   /// @param sink gets the readings in the order of their stamps; called from the thread
-  DeviceThread(std::unique_ptr<DeviceDriver> driver, std::vector<const SensorData*> features,
+  DeviceThread(std::unique_ptr<DeviceDriver> driver, const std::vector<const SensorData*>& features,
                const Config& config, std::function<Timestamp()> clock,
                std::function<void(Message)> sink);
   /// Waits a few seconds for the thread; a thread that hangs in its driver is abandoned.

@@ -35,8 +35,11 @@ class ORTUNG_API DevicesSource : public Source {
   /// The robot file's text.
   std::string robotToml() const override { return robotToml_; }
 
-  /// Returns the next reading, or nothing after @p patience, at the end and at a signal.
+  /// Returns the next reading, or nothing after @p patience, at the end and at a signal. Behind the
+  /// end it still gives the readings that have come and wait for those of other devices.
   std::optional<Message> poll(std::chrono::milliseconds patience);
+  /// Ends the run now: poll() then gives the readings that have come, and next() is false.
+  void finish() { devices_->finish(); }
   /// Whether the duration is over.
   bool isAtEnd() const;
 

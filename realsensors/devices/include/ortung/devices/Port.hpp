@@ -35,6 +35,8 @@ class ORTUNG_API Port {
   /// @p patience. @return whether any came
   /// @throws DeviceAbsent if the connection is lost
   bool read(std::string& bytes, std::chrono::milliseconds patience, std::size_t most = 4096);
+  /// Drops the bytes that have come and were not read.
+  void drop();
   /// Sends all bytes. @throws DeviceAbsent if that takes more than half a second
   void write(std::string_view bytes);
 

@@ -59,6 +59,10 @@ class ORTUNG_API RobotDevices {
   /// waiting thread ends the wait.
   std::optional<Message> next(std::chrono::milliseconds patience);
 
+  /// Takes no more readings: from now on next() gives those that wait for others, without waiting,
+  /// then nothing.
+  void finish();
+
   /// Returns the status of each device.
   std::vector<DeviceStatus> status() const;
   /// The interface for commands of the first device that has one, or null.
@@ -69,8 +73,9 @@ class ORTUNG_API RobotDevices {
   void awaitThoseThatRun();
 
   std::function<Timestamp()> clock_;
-  mutable std::mutex mutex_;  ///< guards merger_
+  mutable std::mutex mutex_;  ///< guards the next two members
   Merger merger_{0, 0.0};
+  bool isFinished_ = false;
   int wake_ = -1;  ///< eventfd that new readings wake: unlike a condition, a signal interrupts it
   std::vector<std::unique_ptr<DeviceThread>> threads_;  ///< last: they end before what they use
 };

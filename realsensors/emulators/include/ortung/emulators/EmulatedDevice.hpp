@@ -55,6 +55,8 @@ class ORTUNG_API EmulatedDevice {
  protected:
   /// Queues a telegram. It takes the time to send all bytes before it and its own.
   void send(std::string telegram, Timestamp now);
+  /// Drops the telegrams that were not sent completely.
+  void dropOutput(Timestamp now);
   /// Whether the line is still sending.
   bool isBusy(Timestamp now) const { return now < free_; }
 
