@@ -1,5 +1,6 @@
 #include "Benchmark.hpp"
 #include "CommandModule.hpp"
+#include "Football.hpp"
 #include "OptionBuilder.hpp"
 
 namespace ortung::app {
@@ -39,13 +40,54 @@ void addGoalkeeper(Builder& build) {
   build.flag("--progress", a->progress, kProgress);
 }
 
+void addFootball(Builder& build) {
+  const auto a = build.command<FootballBenchmarkArguments>(
+      "benchmark football",
+      "ortung benchmark football --leagues f2000 --halves 10 --half-s 60 --threads 2",
+      runFootballBenchmark);
+  build.option("--leagues", a->leagues, "Leagues: f2000, msl; default: both")
+      .splitsAt(',')
+      .oneOf({"f2000", "msl"});
+  build
+      .option("--teams", a->teams,
+              "Teams PLAYER[+KEEPER], both PLUGIN[:key=value&...]; the keeper's default is that of "
+              "the league's scene; a single team plays against itself")
+      .splitsAt(',')
+      .showsDefault();
+  build
+      .option("--against", a->against,
+              "Opponents of all teams, e.g. footballer-v1; default: each other")
+      .splitsAt(',');
+  build
+      .option("--sees", a->sees,
+              "How teams perceive; each plays with each of: truth, features (ball and robots by "
+              "cameras), localized (their poses by MCL, too)")
+      .splitsAt(',')
+      .oneOf({"truth", "features", "localized"});
+  build.option("--halves", a->halves, "Halves of each pair in each league")
+      .within(1, 1e6)
+      .showsDefault();
+  build.option("--half-s", a->seconds, "Length of a half [s]; 0: 600 in f2000, 900 in msl")
+      .within(0.0, 7200.0)
+      .showsDefault();
+  build.option("--seed", a->seed, "Seed of all halves").showsDefault();
+  build.option("--threads", a->threads, "Halves that are played at the same time")
+      .within(1, 256)
+      .showsDefault();
+  build.shard(a->shard, a->job);
+  build.option("--json", a->json, "Also write all figures and halves");
+  build.flag("--force", a->force, kForce);
+  build.flag("--progress", a->progress, kProgress);
+}
+
 void addVerify(Builder& build) {
   const auto a = build.command<BenchmarkVerifyArguments>(
       "benchmark verify", "ortung benchmark verify matrix.json --sample 500", runBenchmarkVerify);
-  build.option("file", a->file, "JSON of `ortung benchmark goalkeeper`").required();
+  build.option("file", a->file, "JSON of `ortung benchmark goalkeeper` or `football`").required();
   build
       .option("--sample", a->sample,
-              "How many episodes are played again, of all pairs together; at least one of each")
+              "How many episodes are played again, of all pairs together and as many of each as of "
+              "the others, or one more")
       .within(1, 1e7)
       .showsDefault();
   build.option("--seed", a->seed, "Seed of the choice").showsDefault();
@@ -68,4 +110,5 @@ void addMerge(Builder& build) {
 }  // namespace
 }  // namespace ortung::app
 
-ORTUNG_COMMAND_MODULE(ortung::app::addGoalkeeper, ortung::app::addVerify, ortung::app::addMerge)
+ORTUNG_COMMAND_MODULE(ortung::app::addGoalkeeper, ortung::app::addFootball, ortung::app::addVerify,
+                      ortung::app::addMerge)

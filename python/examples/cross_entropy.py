@@ -13,6 +13,7 @@ import json
 
 import numpy as np
 
+import curves
 import ortung
 
 LINE, REACH, SPEED, TURN = 0.5, 0.75, 1.5, 3.0  # [m], [m], [m/s], [rad/s], see docs/learning.md
@@ -94,44 +95,11 @@ def train(striker="shot", generations=15, candidates=32, episodes=64, test=1000,
 
 
 def picture(history, file):
-    from PIL import Image, ImageDraw, ImageFont
-
-    width, height, left, top, bottom = 720, 420, 70, 50, 60
-    image = Image.new("RGB", (width, height), "white")
-    draw = ImageDraw.Draw(image)
-    try:
-        font = ImageFont.truetype("DejaVuSans.ttf", 14)
-    except OSError:
-        font = ImageFont.load_default()
-    last = len(history["goals"]) - 1
-
-    def at(generation, share):
-        return (left + (width - left - 30) * generation / max(last, 1),
-                height - bottom - (height - top - bottom) * share)
-
-    for percent in range(0, 101, 20):
-        y = at(0, percent / 100)[1]
-        draw.line([(left, y), (width - 30, y)], fill="#dddddd")
-        draw.text((left - 45, y - 8), f"{percent} %", fill="black", font=font)
-    for generation in range(0, last + 1, max(1, last // 8)):
-        x = at(generation, 0)[0]
-        draw.text((x - 5, height - bottom + 8), str(generation), fill="black", font=font)
-    draw.text((width // 2 - 40, height - bottom + 32), "generation", fill="black", font=font)
-    draw.text((left, 14), f"goalkeeper-v0 against '{history['striker']}', shares of "
-              f"{history['test']} episodes it was not trained in", fill="black", font=font)
-    for key, colour, aside in (("goals", "#c03030", 8), ("saved", "#2060b0", -24)):
-        points = [at(i, share) for i, share in enumerate(history[key])]
-        first = at(0, history[key][0])
-        for x in range(left, width - 30, 12):  # level of the first generation: blocking
-            draw.line([(x, first[1]), (x + 5, first[1])], fill=colour)
-        draw.line(points, fill=colour, width=3)
-        for x, y in points:
-            draw.ellipse([x - 4, y - 4, x + 4, y + 4], fill=colour)
-        x, y = points[-1]
-        draw.text((x - 60, y + (-26 if key == "goals" else 10)), key, fill=colour, font=font)
-        draw.text((width - 230, first[1] + aside), f"blocking, {key}: {100 * history[key][0]:.0f} %",
-                  fill=colour, font=font)
-    image.save(file, optimize=True)
+    levels = [(f"blocking, {key}: {100 * history[key][0]:.0f} %", colour, history[key][0])
+              for key, colour in (("goals", "#c03030"), ("saved", "#2060b0"))]
+    curves.picture(file, f"goalkeeper-v0 against '{history['striker']}', shares of {history['test']} episodes it was not "
+                   "trained in", range(len(history["goals"])), "generation",
+                   [("goals", "#c03030", history["goals"]), ("saved", "#2060b0", history["saved"])], levels)
 
 
 def main():

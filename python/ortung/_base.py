@@ -3,6 +3,7 @@ with the same behaviour."""
 import difflib
 import enum
 import os
+import warnings
 
 import numpy as np
 
@@ -173,6 +174,25 @@ def describe(env_id):
     return known[env_id]
 
 
+def reset_options(info, options, others=()):
+    """Returns the options of a reset that an environment knows. It warns of the others, which wrappers and checkers
+    pass to all environments alike. Raises TypeError for what is no dict.
+
+    others: further names that the caller takes"""
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"{info['id']}: options are {options!r}, expected a dict or None")
+    names = [*others, *(option[0] for option in info["options"])]
+    known = {}
+    for name, value in (options or {}).items():
+        if name in names:
+            known[name] = value
+            continue
+        near = difflib.get_close_matches(str(name), names, 1)
+        meant = f"did you mean '{near[0]}'?" if near else f"it knows {', '.join(names)}"
+        warnings.warn(f"{info['id']}: reset() passes over the unknown option {name!r}; {meant}", stacklevel=3)
+    return known
+
+
 def box_of(quantities):
     return Box(np.array([q[2] for q in quantities], np.float32),
                np.array([q[3] for q in quantities], np.float32), dtype=np.float32)
@@ -190,19 +210,26 @@ def autoreset_mode(env_id, autoreset):
 
 
 def record_into(batch, file):
-    """Lets a batch of one episode write records. Returns whether it does. Raises TypeError for what names no file."""
+    """Lets a batch write records. Returns whether it does. Raises TypeError for what names no file, ValueError for
+    several places with one file."""
     if file is None:
         return False
     if not isinstance(file, (str, os.PathLike)):
         raise TypeError(f"{batch.id}: record is {file!r}, expected the name of a file, or None")
-    batch.record(0, file)
+    name = os.fspath(file)
+    if len(batch) > 1 and "{place}" not in name and "{seed}" not in name:
+        raise ValueError(f"{batch.id}: record is {name!r} for {len(batch)} environments, expected a name with "
+                         "'{place}' or '{seed}', so that each has a file of its own")
+    for place in range(len(batch)):
+        batch.record(place, name.replace("{place}", str(place)))
     return True
 
 
 def end_record(batch, records):
-    """Ends the record of an episode that is given up. Arrays that somebody has may keep the batch itself."""
+    """Ends the records of episodes that are given up. Arrays that somebody has may keep the batch itself."""
     if batch is not None and records:
-        batch.record(0, "")
+        for place in range(len(batch)):
+            batch.record(place, "")
 
 
 def refuse_pictures(env_id, render_mode, instead):

@@ -3,6 +3,7 @@ import numpy as np
 
 from ._base import (
     Box, ZooParallelEnv, box_of, check_action, check_seed, describe, end_record, learning, record_into, refuse_pictures,
+    reset_options,
 )
 
 
@@ -16,6 +17,7 @@ class ParallelEnv(ZooParallelEnv):
     def __init__(self, id="keeper-vs-striker-v0", *, render_mode=None, record=None, **options):
         refuse_pictures(id, render_mode, "record=FILE writes records of episodes, which `ortung view FILE` shows")
         info = describe(id)
+        self._description = info
         self.id = id
         self.render_mode = None
         self.metadata = {**type(self).metadata, "name": id}
@@ -51,11 +53,10 @@ class ParallelEnv(ZooParallelEnv):
         return {a: {"seed": seed, "number": number} for a in self.possible_agents}
 
     def reset(self, seed=None, options=None):
-        """Begins an episode; returns observations and infos by agent."""
+        """Begins an episode; returns observations and infos by agent. It warns of unknown options."""
         self._need_open()
         seed = check_seed(self.id, seed)
-        if options is not None and not isinstance(options, dict):
-            raise TypeError(f"{self.id}: options are {options!r}, expected a dict or None")
+        options = reset_options(self._description, options)
         if options:
             self._batch.set_options(options)
         if seed is None and not self._is_seeded:

@@ -3,7 +3,7 @@ import numpy as np
 
 from ._base import (
     GymEnv, GymVectorEnv, autoreset_mode, batch_space, box_of, check_action, check_seed, describe, end_record,
-    gymnasium, learning, record_into, refuse_pictures,
+    gymnasium, learning, record_into, refuse_pictures, reset_options,
 )
 
 
@@ -14,19 +14,13 @@ def _single(env_id):
     return info
 
 
-def _check_reset_options(env_id, options):
-    if options is not None and not isinstance(options, dict):
-        raise TypeError(f"{env_id}: options are {options!r}, expected a dict or None")
-    return dict(options or {})
-
-
 class Env(GymEnv):
     """An environment with one agent.
 
     reset(seed=S) begins the episodes (S, 0), (S, 1), ...: each is a function of the id, the options,
     the seed and its number alone. reset() without a seed begins the next one; if there was no seed
     yet, the seed is random. reset(options={...}) overrides options that the environment was made with,
-    for all further episodes.
+    for all further episodes; it warns of names that the environment does not know.
 
     record: file of a record of what the agent's robot reads, with its true pose, which `ortung view FILE` shows:
     it has the latest episode, or each one its own if the name has "{seed}" and "{number}". It is whole when the
@@ -38,6 +32,7 @@ class Env(GymEnv):
     def __init__(self, id="goalkeeper-v0", *, render_mode=None, record=None, **options):
         refuse_pictures(id, render_mode, "record=FILE writes records of episodes, which `ortung view FILE` shows")
         info = _single(id)
+        self._description = info
         self.id = id
         self.render_mode = None
         self.metadata = {**type(self).metadata, "name": id}
@@ -60,7 +55,7 @@ class Env(GymEnv):
         """Begins an episode; returns its first observation, and info with its seed and number."""
         self._need_open()
         seed = check_seed(self.id, seed)
-        options = _check_reset_options(self.id, options)
+        options = reset_options(self._description, options)
         super().reset(seed=seed)
         batch = self._batch
         if options:
@@ -107,16 +102,17 @@ class VectorEnv(GymVectorEnv):
 
     threads: number of threads; 0: as many as the machine has. autoreset: "NextStep", "SameStep" or
     "Disabled", see Gymnasium's AutoresetMode. copy=False returns views of arrays that the next call
-    changes.
+    changes. record: as of Env; "{place}" in the name stands for the number of the environment, and
+    with several of them the name has it or "{seed}".
     """
 
     metadata = {"render_modes": []}
 
     def __init__(self, id="goalkeeper-v0", num_envs=1, *, threads=0, autoreset="NextStep",
-                 copy=True, render_mode=None, **options):
-        refuse_pictures(id, render_mode,
-                        "ortung.make() has record=FILE for records of episodes, which `ortung view FILE` shows")
+                 copy=True, render_mode=None, record=None, **options):
+        refuse_pictures(id, render_mode, "record=FILE writes records of episodes, which `ortung view FILE` shows")
         info = _single(id)
+        self._description = info
         self._mode = autoreset_mode(id, autoreset)
         self.id = id
         self.num_envs = num_envs
@@ -129,7 +125,8 @@ class VectorEnv(GymVectorEnv):
         self.closed = False
         self._copy = copy
         self._batch = learning().Batch(id, options, episodes=num_envs, threads=threads,
-                                  autoreset=learning().Autoreset.__members__[self._mode.name])
+                                       autoreset=learning().Autoreset.__members__[self._mode.name])
+        self._records = record_into(self._batch, record)
         self._is_seeded = False
 
     def _out(self, array):
@@ -146,7 +143,9 @@ class VectorEnv(GymVectorEnv):
         mask = np.asarray(mask)
         if mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
             raise ValueError(f"{self.id}: reset_mask must be {self.num_envs} flags, at least one set")
-        return mask
+        if not self._is_seeded and not mask.all():
+            raise RuntimeError(f"{self.id} must be reset as a whole before a part of it")
+        return None if mask.all() else mask
 
     def _seeds(self, seed):
         if seed is None and not self._is_seeded:
@@ -160,9 +159,11 @@ class VectorEnv(GymVectorEnv):
         return seeds
 
     def reset(self, *, seed=None, options=None):
-        """Begins episodes: all, or those of options["reset_mask"]; returns observations and infos."""
+        """Begins episodes: all, or those whose flag in options["reset_mask"] is set; the others stay where they are.
+        Returns observations and infos, those of all. seed: place i has the seed seed + i; or a list of seeds, in which
+        None means the next episode. The other options are as of Env, for these places."""
         self._need_open()
-        options = _check_reset_options(self.id, options)
+        options = reset_options(self._description, options, ["reset_mask"])
         mask = self._mask(options)
         if seed is None or isinstance(seed, (int, np.integer)):
             super().reset(seed=check_seed(self.id, seed))
@@ -172,16 +173,28 @@ class VectorEnv(GymVectorEnv):
             for i in range(self.num_envs):
                 if mask is None or mask[i]:
                     batch.set_options(options, i)
-        if mask is None and all(one is not None for one in seeds):
-            batch.reset(seeds)
-        elif mask is None and all(one is None for one in seeds):
-            batch.reset()
-        else:
-            for i in range(self.num_envs):
-                if mask is None or mask[i]:
-                    batch.reset_one(i, seeds[i])
+        batch.reset(seeds, mask)
         self._is_seeded = True
         return self._out(batch.observations[:, 0]), self._infos(batch)
+
+    def reset_places(self, places, *, seed=None, options=None):
+        """Begins the episodes of some places, given by their numbers, e.g. reset_places([3, 7], seed=[1, 2]), as
+        reset() does. seed: one for each of these places, or a number: place i has the seed seed + i."""
+        places = np.atleast_1d(np.asarray(places))
+        if places.dtype.kind not in "iu" or places.ndim != 1 or len(places) == 0:
+            raise TypeError(f"{self.id}: places are {places!r}, expected numbers of environments")
+        if places.min() < 0 or places.max() >= self.num_envs or len(np.unique(places)) < len(places):
+            raise ValueError(f"{self.id}: places are {places.tolist()}, expected different ones from 0 to "
+                             f"{self.num_envs - 1}")
+        mask = np.zeros(self.num_envs, bool)
+        mask[places] = True
+        if seed is not None and not isinstance(seed, (int, np.integer)):
+            if len(seed) != len(places):
+                raise ValueError(f"{self.id}: {len(seed)} seeds for {len(places)} places")
+            given, seed = seed, [None] * self.num_envs
+            for place, one in zip(places, given):
+                seed[place] = one
+        return self.reset(seed=seed, options={**(options or {}), "reset_mask": mask})
 
     def _infos(self, batch):
         everywhere = np.ones(self.num_envs, bool)
@@ -218,6 +231,7 @@ class VectorEnv(GymVectorEnv):
 
     def close_extras(self, **kwargs):
         """Gives the episodes up; close() calls it."""
+        end_record(self._batch, self._records)
         self._batch = None
 
 
@@ -238,11 +252,20 @@ def make_vec(id, num_envs=1, **options):
 
     threads: number of threads; 0: as many as the machine has (episodes do not depend on it). autoreset: when an episode
     that is over begins anew: "NextStep", "SameStep", or "Disabled" (by reset() with options={"reset_mask": flags}).
-    copy: whether step() returns copies; False: views of arrays that the next call changes, which is faster. The other
-    options are those of the environment, as make() takes them: ortung.environments() lists them, with ids, actions and
-    observations. Raises ValueError for an unknown id, ConfigError and PluginError for options.
+    copy: whether step() returns copies; False: views of arrays that the next call changes, which is faster.
+    record=FILE writes records as make() does, with "{place}" or "{seed}" in the name. The other options are those of the
+    environment, as make() takes them: ortung.environments() lists them, with ids, actions and observations. Raises
+    ValueError for an unknown id, ConfigError and PluginError for options.
     """
     return VectorEnv(id, num_envs, **options)
+
+
+def _registered(environment, **options):
+    return Env(environment, **options)
+
+
+def _registered_vec(environment, num_envs=1, **options):
+    return VectorEnv(environment, num_envs, **options)
 
 
 def register():
@@ -252,6 +275,7 @@ def register():
     for info in learning().environments():
         name = f"ortung/{info['id']}"
         if len(info["agents"]) == 1 and name not in gymnasium.registry:
-            gymnasium.register(name, entry_point="ortung.single_agent:Env",
-                               vector_entry_point="ortung.single_agent:VectorEnv",
-                               kwargs={"id": info["id"]})
+            # Gymnasium passes these arguments on through functions that have an "id" of their own.
+            gymnasium.register(name, entry_point="ortung.single_agent:_registered",
+                               vector_entry_point="ortung.single_agent:_registered_vec",
+                               kwargs={"environment": info["id"]})

@@ -38,6 +38,7 @@ class VectorEnv(_VectorEnv[npt.NDArray[np.float32], npt.ArrayLike, npt.NDArray[A
         autoreset: Any = "NextStep",
         copy: bool = True,
         render_mode: None = None,
+        record: Union[str, "os.PathLike[str]", None] = None,
         **options: Any,
     ) -> None: ...
     def reset(
@@ -55,6 +56,13 @@ class VectorEnv(_VectorEnv[npt.NDArray[np.float32], npt.ArrayLike, npt.NDArray[A
         npt.NDArray[np.bool_],
         Dict[str, Any],
     ]: ...
+    def reset_places(
+        self,
+        places: npt.ArrayLike,
+        *,
+        seed: Optional[Union[int, Sequence[Optional[int]]]] = None,
+        options: Optional[Dict[str, Any]] = None,
+    ) -> Tuple[npt.NDArray[np.float32], Dict[str, Any]]: ...
     def states(self) -> npt.NDArray[np.float32]: ...
     def close_extras(self, **kwargs: Any) -> None: ...
 

@@ -122,6 +122,20 @@ void step(SharedBatch& self, const py::object& given) {
   alone(self.gate, [&] { batch.step(numbers); });
 }
 
+using Seeds = std::vector<std::optional<std::uint64_t>>;
+
+void reset(SharedBatch& self, const std::optional<Seeds>& seeds, const py::object& mask) {
+  std::vector<std::uint8_t> places(self.batch->size(), 1);
+  if (!mask.is_none()) {
+    const auto flags = py::array::ensure(mask);
+    if (!flags || flags.dtype().kind() != 'b' || flags.ndim() != 1)
+      throw py::type_error(self.batch->info().id + ": the mask is no array of flags (N,)");
+    const auto bools = py::array_t<bool, py::array::c_style>(flags);
+    places.assign(bools.data(), bools.data() + bools.size());
+  }
+  alone(self.gate, [&] { self.batch->reset(places, seeds.value_or(Seeds{})); });
+}
+
 template <class T, class Get>
 auto array(const Get& get, bool hasAgents, std::size_t last) {
   return [=](const py::object& self) {
@@ -212,13 +226,9 @@ void bindBatch(py::module_& module) {
            "Makes the episodes of an environment; place i has the seed seed + i.")
       .def("step", &step, py::arg("actions"),
            "Acts in all episodes; actions: (N, agents, action), numbers in [-1, 1].")
-      .def(
-          "reset",
-          [](SharedBatch& self, const std::optional<std::vector<std::uint64_t>>& seeds) {
-            alone(self.gate, [&] { seeds ? self.batch->reset(*seeds) : self.batch->reset(); });
-          },
-          py::arg("seeds") = py::none(),
-          "Begins all episodes anew: those of these seeds, (N,), or the next of each seed.")
+      .def("reset", &reset, py::arg("seeds") = py::none(), py::arg("mask") = py::none(),
+           "Begins all episodes anew, or those whose flag in mask, (N,), is set: those of these "
+           "seeds, (N,), or the next of each seed. A seed of None stands for the next, too.")
       .def(
           "reset_one",
           [](SharedBatch& self, std::size_t episode, std::optional<std::uint64_t> seed) {

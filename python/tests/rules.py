@@ -1,8 +1,21 @@
 """Checks that environments keep the rules of Gymnasium (alone and as vectors) and of PettingZoo's parallel
 API. Farama's checkers check the same, but are not Debian packages; these checks run everywhere."""
 import copy
+import warnings
 
 import numpy as np
+
+
+def check_unknown_options(env):
+    """Checks what checkers do first: a reset with an option that no environment has, which must warn the caller."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        first = env.reset(seed=0, options={"options": 1})
+    assert len(told) == 1 and issubclass(told[0].category, UserWarning) and told[0].filename == __file__, told
+    assert "unknown option 'options'" in str(told[0].message), told[0]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert equivalent(env.reset(seed=0, options={}), first)
 
 
 def equivalent(a, b):
@@ -53,7 +66,7 @@ def check_env(make):
     env.reset(seed=123)
     assert equivalent(env.reset(), after)
     assert not equivalent(make().reset()[0], make().reset()[0])  # the first seed is random
-    env.reset(options={})
+    check_unknown_options(env)
 
     twin = make()
     env.action_space.seed(1)
@@ -90,6 +103,7 @@ def check_vector(make, mode):
     again, _ = env.reset(seed=list(range(7, 7 + n)))
     assert np.array_equal(first, again)
     env.reset()
+    check_unknown_options(env)
     env.reset(seed=7)
     env.action_space.seed(2)
     dead = np.zeros(n, bool)
@@ -133,6 +147,7 @@ def check_parallel(make):
         assert env.action_space(agent) is env.action_space(agent)
         _check_space(env.observation_space(agent))
         _check_space(env.action_space(agent))
+    check_unknown_options(env)
     for _ in range(3):
         observations, infos = env.reset()
         alive = set(env.possible_agents)
@@ -162,4 +177,32 @@ def check_parallel(make):
         assert equivalent(env.step(actions), twin.step(actions))
         assert env.agents == twin.agents
     env.close()
+    env.close()
+
+
+def check_in_turns(env):
+    """Checks what PettingZoo's api_test does with an environment whose agents act in turns: it collects their actions,
+    steps when it has those of all, begins anew in the middle of an episode, and gives actions of zeros twice."""
+    check_unknown_options(env)
+    for length in (2, 1000):
+        observations, _ = env.reset()
+        owed = dict.fromkeys(env.possible_agents, 0.0)
+        for _ in range(length):
+            if not env.agents:
+                break
+            actions = {}
+            for agent in env.agents:
+                space = env.observation_space(agent)
+                assert observations[agent] in space and observations[agent].dtype == space.dtype
+                assert owed.pop(agent) is not None
+                actions[agent] = env.action_space(agent).sample()
+            acted = env.agents[:]
+            observations, owed, terminated, truncated, infos = env.step(actions)
+            assert env.num_agents == len(env.agents) <= env.max_num_agents
+            for agent in acted:
+                assert isinstance(owed[agent], float) and isinstance(infos[agent], dict)
+                assert type(terminated[agent]) is bool and type(truncated[agent]) is bool
+    for _ in range(2):
+        env.reset(seed=0)
+        env.step({agent: np.zeros_like(env.action_space(agent).low) for agent in env.agents})
     env.close()

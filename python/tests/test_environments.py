@@ -44,6 +44,7 @@ class Rules(unittest.TestCase):
     def test_pettingzoo(self):
         rules.check_parallel(ortung.parallel_env)
         rules.check_parallel(lambda: ortung.parallel_env("goalkeeper-v0"))
+        rules.check_in_turns(ortung.parallel_env())
 
 
 class Views(unittest.TestCase):
@@ -132,6 +133,52 @@ class Episodes(unittest.TestCase):
             np.testing.assert_array_equal(actions, np.concatenate([act(row[None]) for row in seen]))
             self.assertTrue((np.abs(actions) <= 1).all() and actions.any())
             self.assertEqual(act(seen[:0]).shape, (0, 2))
+
+
+class PartialResets(unittest.TestCase):
+    def env(self, n=4):
+        env = ortung.make_vec("goalkeeper-v0", n, threads=2, autoreset="Disabled")
+        env.reset(seed=20)
+        for _ in range(3):
+            env.step(np.ones((n, 2), np.float32))
+        return env
+
+    def test_begin_the_episodes_of_a_mask(self):
+        env = self.env()
+        before = env.states()
+        observations, infos = env.reset(seed=70, options={"reset_mask": np.array([True, False, True, False])})
+        self.assertEqual(infos["seed"].tolist(), [70, 21, 72, 23])
+        np.testing.assert_array_equal(env.states()[[1, 3]], before[[1, 3]])
+        alone = ortung.make("goalkeeper-v0")
+        np.testing.assert_array_equal(observations[2], alone.reset(seed=72)[0])
+        observations, infos = env.reset(options={"reset_mask": [False, False, True, False]})
+        self.assertEqual(infos["number"].tolist(), [0, 0, 1, 0])
+        np.testing.assert_array_equal(observations[2], alone.reset()[0])
+
+    def test_begin_the_episodes_of_some_places(self):
+        env = self.env()
+        before = env.states()
+        observations, infos = env.reset_places([3, 0], seed=[5, 6], options={"striker": "roll"})
+        self.assertEqual(infos["seed"].tolist(), [6, 21, 22, 5])
+        np.testing.assert_array_equal(env.states()[1:3], before[1:3])
+        np.testing.assert_array_equal(observations[3], ortung.make("goalkeeper-v0", striker="roll").reset(seed=5)[0])
+        self.assertEqual(env.reset_places(1)[1]["number"].tolist(), [0, 1, 0, 0])
+        self.assertEqual(env.reset_places([2], seed=30)[1]["seed"].tolist(), [6, 21, 32, 5])
+
+    def test_refuse_what_is_no_place(self):
+        env = self.env()
+        for call, kind, words in (
+                (lambda: env.reset_places([4]), ValueError, r"places are \[4\], expected different ones from 0 to 3"),
+                (lambda: env.reset_places([1, 1]), ValueError, "different"),
+                (lambda: env.reset_places([]), TypeError, "numbers of environments"),
+                (lambda: env.reset_places([0.5]), TypeError, "numbers of environments"),
+                (lambda: env.reset_places([1, 2], seed=[3]), ValueError, "1 seeds for 2 places"),
+                (lambda: env.reset(options={"reset_mask": np.ones(3, bool)}), ValueError, "4 flags"),
+                (lambda: env.reset(options={"reset_mask": np.zeros(4, bool)}), ValueError, "at least one"),
+                (lambda: ortung.make_vec("goalkeeper-v0", 2).reset_places(1), RuntimeError, "as a whole"),
+                (lambda: ortung.Batch("goalkeeper-v0").reset(mask=[1]), TypeError, "flags")):
+            with self.assertRaisesRegex(kind, words):
+                call()
 
 
 class Threads(unittest.TestCase):
@@ -307,7 +354,9 @@ class BadInput(unittest.TestCase):
         self.fails(TypeError, "seed is 'x'", lambda: env.reset(seed="x"))
         self.fails(TypeError, "seed is 1.5", lambda: env.reset(seed=1.5))
         self.fails(TypeError, "options are", lambda: env.reset(options=3))
-        self.fails(ortung.ConfigError, "wind", lambda: env.reset(options={"wind": 3}))
+        self.fails(ortung.ConfigError, "striker:kind=lob", lambda: env.reset(options={"striker": "striker:kind=lob"}))
+        with self.assertWarnsRegex(UserWarning, "'strikr'; did you mean 'striker'?"):
+            env.reset(options={"strikr": "roll"})
         self.fails(ValueError, "3 seeds|expected 2",
                    lambda: ortung.make_vec("goalkeeper-v0", 2).reset(seed=[1, 2, 3]))
         self.fails(ValueError, "episodes is 0", lambda: ortung.make_vec("goalkeeper-v0", 0))
@@ -400,6 +449,24 @@ class Records(unittest.TestCase):
                 zoo.step({name: np.zeros(zoo.action_space(name).shape, np.float32) for name in zoo.agents})
             self.assertGreater(self.truth(file, "goalkeeper.toml")[0][-1], 0.9)  # the keeper's
 
+    def test_of_many_have_the_number_of_their_place(self):
+        with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
+            env = ortung.make_vec("goalkeeper-v0", 3, striker="roll", record=f"{folder}/{{place}}-{{number}}.rec")
+            env.reset(seed=3)
+            for _ in range(5):
+                env.step(np.zeros((3, 2), np.float32))
+            env.close()
+            alone = ortung.make("goalkeeper-v0", striker="roll", record=f"{folder}/alone.rec")
+            alone.reset(seed=5)
+            for _ in range(5):
+                alone.step(np.zeros(2))
+            alone.close()
+            folder = pathlib.Path(folder)
+            self.assertEqual((folder / "2-0.rec").read_bytes(), (folder / "alone.rec").read_bytes())
+            self.assertEqual(len(list(folder.iterdir())), 4)
+            with self.assertRaisesRegex(ValueError, "a.rec' for 2 environments, expected a name with '{place}'"):
+                ortung.make_vec("goalkeeper-v0", 2, record="a.rec")
+
     def test_replace_records_only(self):
         with tempfile.TemporaryDirectory(prefix="ortung-episode-") as folder:
             notes = pathlib.Path(folder, "notes.txt")
@@ -437,6 +504,34 @@ class Learner(unittest.TestCase):
         import cross_entropy
         history = cross_entropy.train(generations=3, candidates=10, episodes=24, test=100, quiet=True)
         self.assertGreater(history["score"][-1], history["score"][0])
+
+    def test_the_one_from_scratch_improves(self):
+        import train_keeper
+        keeper, history = train_keeper.train(environments=64, steps=32, iterations=12, test=200, every=100, threads=1,
+                                             quiet=True)
+        self.assertLess(history["goals"][-1], history["goals"][0] - 0.05)
+        with tempfile.TemporaryDirectory(prefix="ortung-keeper-") as folder:
+            keeper.save(f"{folder}/keeper.npz")
+            again = train_keeper.load(f"{folder}/keeper.npz")
+        seen = np.random.default_rng(1).uniform(-10, 10, (5, 26)).astype(np.float32)
+        np.testing.assert_array_equal(again.act(seen), keeper.act(seen))
+        self.assertTrue((np.abs(keeper.act(seen)) <= 1).all())
+
+    def test_its_gradients_are_those_of_small_differences(self):
+        import train_keeper
+        random = np.random.default_rng(2)
+        network = train_keeper.Network([3, 5, 4, 2], random, 1.0)
+        network.parameters = [one.astype(np.float64) for one in network.parameters]
+        x, weights = random.standard_normal((6, 3)), random.standard_normal((6, 2))
+        gradients = network.backward(network.forward(x)[1], weights)
+        for parameter, gradient in zip(network.parameters, gradients):
+            for place in np.ndindex(parameter.shape):
+                before, sums = parameter[place], []
+                for step in (1e-5, -1e-5):
+                    parameter[place] = before + step
+                    sums.append((network.forward(x)[0] * weights).sum())
+                parameter[place] = before
+                self.assertAlmostEqual(gradient[place], (sums[0] - sums[1]) / 2e-5, places=6)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,23 @@ TEST(BenchmarkCommand, PlaysWritesMergesAndVerifies) {
   EXPECT_EQ(same.exitCode, 0) << same.err;
   EXPECT_EQ(same.out, "20 of 20 episodes were played again, 0 with another result\n");
 
+  const Outcome some = ortung({"benchmark", "verify", file("all.json"), "--sample", "7"});
+  EXPECT_EQ(some.out, "7 of 20 episodes were played again, 0 with another result\n");
+
   auto json = nlohmann::ordered_json::parse(readBytes(file("all.json")));
+  json["cells"][1]["count"]["goal"] = 6;
+  json["cells"][3]["scoring"]["value"] = 1.5;
+  writeBytes(file("figures.json"), json.dump());
+  const Outcome wrong = ortung({"benchmark", "verify", file("figures.json"), "--sample", "1"});
+  EXPECT_EQ(wrong.exitCode, 1);
+  EXPECT_NE(wrong.err.find("figures.json: /cells/1/count/goal is 6, but the episodes give "),
+            std::string::npos)
+      << wrong.err;
+  EXPECT_NE(wrong.err.find("/cells/3/scoring/value is 1.5, but"), std::string::npos) << wrong.err;
+  EXPECT_EQ(wrong.out,
+            "1 of 20 episodes were played again, 0 with another result\n"
+            "2 figures are not those of the episodes\n");
+  json = nlohmann::ordered_json::parse(readBytes(file("all.json")));
   std::string outcomes = json["cells"][1]["outcomes"];
   outcomes[2] = outcomes[2] == 'g' ? 's' : 'g';
   json["cells"][1]["outcomes"] = outcomes;

@@ -119,6 +119,27 @@ TEST(Goalkeeper, InterceptsByMclAndByScansOnItsOwnScanner) {
   }
 }
 
+// A referee carries it, and both halves look the same to its scanner: it finds itself in its own.
+TEST(Goalkeeper, FindsItselfAtItsOwnGoalAfterItWasCarried) {
+  Keeping keeping("policy=intercepting&stage=no&start=-5.5,0,90&sees=localized");
+  keeping.steps(100);
+  for (const Pose2& place :
+       {Pose2{-4.0, 2.0, 0.5}, Pose2{-5.3, -1.2, -2.5}, Pose2{-3.0, -3.0, 1.0},
+        Pose2{-5.0, 1.5, 3.0}, Pose2{-2.0, 0.5, -1.0}, Pose2{-4.5, -2.5, 2.0}}) {
+    keeping.run.simulation().place(*keeping.robot, place);
+    double error = 100.0;
+    for (int i = 0; i < 30 && error > 0.2; ++i) {
+      // Balls that it wants to meet keep it moving: who stands learns nothing new.
+      if (i % 5 == 0) keeping.roll({-2.0, 0.0, 0.0}, -2.0, i % 2 == 0 ? 0.4 : -0.4);
+      keeping.steps(20);
+      const auto believed = keeping.run.players().believedPose(*keeping.robot);
+      ASSERT_TRUE(believed) << keeping.problem;
+      error = distance(believed->pose, keeping.pose());
+    }
+    EXPECT_LE(error, 0.2) << place.x << ", " << place.y;
+  }
+}
+
 // What it does about a ball that is kicked, it does later by its delay.
 TEST(Goalkeeper, KnowsLateWhatItSees) {
   const auto movesAt = [](const std::string& delay) {

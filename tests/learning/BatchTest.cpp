@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "Files.hpp"
 #include "Played.hpp"
@@ -60,6 +63,20 @@ TEST(Batch, AnEpisodeIsAFunctionOfSeedAndNumberAlone) {
   }
 }
 
+// With so many, the memory of the next one is asked for while one is stepped.
+TEST(Batch, EpisodesAreTheSameAmongManyAndFew) {
+  constexpr std::size_t kMany = 130;
+  Batch many("goalkeeper-v0", {}, {.episodes = kMany, .threads = 2, .seed = 50});
+  Batch few("goalkeeper-v0", {}, {.episodes = 2, .seed = 50 + kMany - 2});
+  for (int i = 0; i < 60; ++i) {
+    many.step(heuristicActions(many));
+    few.step(heuristicActions(few));
+    const auto last = many.observations().last(few.observations().size());
+    ASSERT_TRUE(std::equal(last.begin(), last.end(), few.observations().begin())) << i;
+  }
+  EXPECT_GT(few.numbers()[0], 0u);
+}
+
 TEST(Batch, WithoutASeedTheNextEpisodeComesAndASeedBeginsAnew) {
   Batch batch("goalkeeper-v0", {}, {.episodes = 2, .seed = 3});
   const std::vector<float> first(batch.observations().begin(), batch.observations().end());
@@ -69,6 +86,49 @@ TEST(Batch, WithoutASeedTheNextEpisodeComesAndASeedBeginsAnew) {
   batch.reset(0, 3);
   batch.reset(1, 4);
   EXPECT_TRUE(std::equal(first.begin(), first.end(), batch.observations().begin()));
+}
+
+// docs/learning.md tells the memory of an episode. The engine's stack is left out: it touches the
+// first few of its 100 kB, so the others take no memory.
+TEST(Batch, AnEpisodeTakesLittleMemory) {
+  const auto used = [] { return static_cast<double>(mallinfo2().uordblks); };
+  if (used() == 0.0) GTEST_SKIP() << "another allocator, which does not tell";
+  constexpr double kStack = 102'400.0;
+  constexpr std::size_t kEpisodes = 64;
+  const Options shot = {{"striker", {std::string("shot")}}};
+  Batch first("goalkeeper-v0", shot, {.episodes = 1});  // loads what all share
+  const double before = used();
+  Batch batch("goalkeeper-v0", shot, {.episodes = kEpisodes});
+  for (int i = 0; i < 60; ++i) batch.step(heuristicActions(batch));
+  EXPECT_LT((used() - before) / kEpisodes - kStack, 60'000.0);
+}
+
+TEST(Batch, SomePlacesBeginAnewAndTheOthersStayWhereTheyAre) {
+  Batch batch("goalkeeper-v0", {}, {.episodes = 3, .threads = 2, .seed = 3});
+  batch.step(heuristicActions(batch));
+  const auto rowOf = [&](const Batch& of, std::size_t i) {
+    const auto row =
+        of.observations().subspan(i * of.info().observation.size(), of.info().observation.size());
+    return std::vector<float>(row.begin(), row.end());
+  };
+  const std::vector<float> kept = rowOf(batch, 1);
+  const std::vector<std::uint8_t> places = {1, 0, 1};
+  const std::vector<std::optional<std::uint64_t>> seeds = {40, 41, std::nullopt};
+  batch.reset(places, seeds);
+  EXPECT_EQ(rowOf(batch, 1), kept);
+  Batch alone("goalkeeper-v0", {}, {.episodes = 1, .seed = 40});
+  EXPECT_EQ(rowOf(batch, 0), rowOf(alone, 0));
+  Batch last("goalkeeper-v0", {}, {.episodes = 1, .seed = 5});
+  last.reset();
+  EXPECT_EQ(rowOf(batch, 2), rowOf(last, 0));
+  EXPECT_EQ(batch.seeds()[1], 4u);
+  EXPECT_EQ(batch.numbers()[2], 1u);
+  batch.reset(places, {});
+  EXPECT_EQ(batch.numbers()[0], 1u);
+  EXPECT_NE(whyNot([&] { batch.reset(std::vector<std::uint8_t>(2), {}); }).find("2 flags"),
+            std::string::npos);
+  EXPECT_NE(whyNot([&] { batch.reset(places, std::span(seeds).first(1)); }).find("1 seeds"),
+            std::string::npos);
 }
 
 /// The keeper that does nothing is the benchmark's `still`, so both play the same episodes.

@@ -43,11 +43,13 @@ struct Moment {
 class Seeker : public Player {
  public:
   using Begin = std::function<void(PlayerSeat&, SelfLocalization&)>;
-  Seeker(std::vector<Moment>& moments, Begin begin) : moments_(moments), begin_(std::move(begin)) {}
+  using Make = std::function<std::unique_ptr<SelfLocalization>(PlayerSeat&)>;
+  Seeker(std::vector<Moment>& moments, Begin begin, Make make)
+      : moments_(moments), begin_(std::move(begin)), make_(std::move(make)) {}
 
   bool needsTables() const override { return true; }
   void begin(PlayerSeat& seat) override {
-    self_ = std::make_unique<SelfLocalization>(seat);
+    self_ = make_(seat);
     if (begin_) begin_(seat, *self_);
   }
   bool senseAndAct(PlayerSeat& seat) override {
@@ -63,8 +65,13 @@ class Seeker : public Player {
  private:
   std::vector<Moment>& moments_;
   Begin begin_;
+  Make make_;
   std::unique_ptr<SelfLocalization> self_;
 };
+
+std::unique_ptr<SelfLocalization> makeAnywhere(PlayerSeat& seat) {
+  return std::make_unique<SelfLocalization>(seat);
+}
 
 struct Game1 {
   explicit Game1(std::uint64_t seed, std::shared_ptr<TableStore> tables = store())
@@ -77,9 +84,10 @@ struct Game1 {
                  .tables = std::move(tables)}) {}
 
   void enter(const Seeker::Begin& begin, const PlayerWish& wish = PlayerWish(),
-             const std::string& robot = "pioneer_lrf.toml") {
+             const std::string& robot = "pioneer_lrf.toml",
+             const Seeker::Make& make = makeAnywhere) {
     SimRobot& added = simulation.addRobot(readRobot(shippedFile("robots", robot)), factory, kStart);
-    players.own(added, std::make_unique<Seeker>(moments, begin), wish, Random(5, 1));
+    players.own(added, std::make_unique<Seeker>(moments, begin, make), wish, Random(5, 1));
   }
   void run(double seconds) {
     while (toSeconds(simulation.now()) < seconds && problem.empty()) {
@@ -105,6 +113,21 @@ double medianError(const std::vector<Moment>& moments, std::size_t from) {
   std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
                    errors.end());
   return errors[errors.size() / 2];
+}
+
+TEST(SelfLocalization, MayBeginNearAtOnce) {
+  Game1 later(3);
+  later.enter([](PlayerSeat& seat, SelfLocalization& self) {
+    self.startNear(Game1::kStart, 0.2, 0.1, seat.random());
+  });
+  later.run(1.0);
+  Game1 atOnce(3);
+  atOnce.enter({}, PlayerWish(), "pioneer_lrf.toml", [](PlayerSeat& seat) {
+    return std::make_unique<SelfLocalization>(seat, Game1::kStart, 0.2, 0.1);
+  });
+  atOnce.run(1.0);
+  ASSERT_EQ(atOnce.moments.size(), 100u);
+  EXPECT_EQ(atOnce.moments, later.moments);
 }
 
 // Centimetres, by a scanner with noise of 2 cm.

@@ -231,7 +231,8 @@ class Chase {
     EXPECT_EQ(before.teams[0].score + before.teams[1].score, game_.count()["goal"]);
     EXPECT_EQ(game_.count()["half-time"], 1);
     EXPECT_EQ(game_.count()["problem"], 0) << game_.log();
-    EXPECT_GT(game_.count()["play"], 2) << game_.log();
+    EXPECT_GE(game_.count()["play"], 2) << "each half is kicked off\n" << game_.log();
+    EXPECT_GT(game_.count()["set-piece-over"], 1) << game_.log();
     return game_.log();
   }
 

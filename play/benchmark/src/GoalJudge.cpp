@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "ortung/sim/Primitive.hpp"
+#include "Contact.hpp"
 
 namespace ortung {
 namespace {
@@ -19,17 +19,7 @@ constexpr double kBump = 0.1;  ///< least change of the ball's velocity by a tou
 bool isAt(const SimRobot& robot, const Simulation::Thing& ball, double cycle) {
   const double rolled = std::hypot(ball.velocity.x, ball.velocity.y) * cycle;
   const double reach = GoalField::kBall + kTouch + rolled;
-  const Pose2 place = inverse(robot.state().pose) * ball.pose;
-  const auto isNear = [&](const Primitive& piece) {
-    return distanceTo(piece, {place.x, place.y}) < reach;
-  };
-  const RobotShape& shape = robot.shape();
-  if (std::any_of(shape.pieces.begin(), shape.pieces.end(), isNear)) return true;
-  for (std::size_t i = 0; i < shape.manipulators.size(); ++i) {
-    const auto& pieces = shape.manipulators[i].states[robot.manipulatorStates()[i]].pieces;
-    if (std::any_of(pieces.begin(), pieces.end(), isNear)) return true;
-  }
-  return false;
+  return distanceToPieces(robot, ball) < reach;
 }
 
 }  // namespace

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <set>
 #include <stdexcept>
-#include <thread>
 #include <tuple>
 
+#include "Jobs.hpp"
 #include "ortung/base/Nearest.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/PluginFactory.hpp"
@@ -32,36 +29,15 @@ struct Job {
   GoalEpisode* result = nullptr;
 };
 
-/// Plays all jobs with several threads. Episodes are independent, so the order and the thread do
-/// not matter.
+/// Plays all jobs with several threads.
 void play(const std::vector<Job>& jobs, std::uint64_t seed, const GoalMatrixRun& run) {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> isOver = false;
-  std::mutex mutex;
-  std::exception_ptr failure;
   const auto tables = run.tables ? run.tables : std::make_shared<TableStore>(GoalEpisodes::world());
-  const auto work = [&](bool tells) {
-    try {
-      GoalEpisodes episodes(tables);
-      for (std::size_t i = next++; i < jobs.size() && !isOver; i = next++) {
-        *jobs[i].result = episodes.play(*jobs[i].keeper, *jobs[i].striker, seed, jobs[i].number);
-        if (tells && run.goesOn &&
-            !run.goesOn(static_cast<double>(i + 1) / static_cast<double>(jobs.size())))
-          throw std::runtime_error("the benchmark was ended before it was done");
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      isOver = true;
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < std::min<std::size_t>(run.threads, jobs.size()); ++i)
-      others.emplace_back(work, false);
-    work(true);
-  }
-  if (failure) std::rethrow_exception(failure);
+  doJobs(jobs.size(), run.threads, run.goesOn, [&] {
+    return [&jobs, seed, episodes = std::make_unique<GoalEpisodes>(tables)](std::size_t i) {
+      const Job& job = jobs[i];
+      *job.result = episodes->play(*job.keeper, *job.striker, seed, job.number);
+    };
+  });
 }
 
 /// Returns the number of a shard's episodes of each pair.
@@ -141,6 +117,16 @@ std::uint64_t mixed(std::uint64_t word) {  // splitmix64 (Steele et al., 2014)
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9U;
   word = (word ^ (word >> 27)) * 0x94d049bb133111ebU;
   return word ^ (word >> 31);
+}
+
+/// Draws @p count of the numbers below @p size, all of them if there are fewer. Returns them in
+/// their order (Knuth, The art of computer programming 2, 3.4.2, algorithm S).
+std::vector<std::uint64_t> drawnPlaces(std::uint64_t size, std::uint64_t count, Random& random) {
+  std::vector<std::uint64_t> places;
+  count = std::min(count, size);
+  for (std::uint64_t place = 0; places.size() < count; ++place)
+    if (random.below(size - place) < count - places.size()) places.push_back(place);
+  return places;
 }
 
 /// Returns the policies or the kinds, whichever has a name near a plugin's, with that one first;
@@ -316,13 +302,15 @@ GoalMatrix mergeShards(std::span<const GoalMatrix> shards) {
 std::vector<GoalMismatch> verify(const GoalMatrix& matrix, std::uint64_t sample, std::uint64_t seed,
                                  const GoalMatrixRun& run, std::uint64_t& played) {
   Random random(seed, 0);
+  const std::size_t cells = matrix.cells.size();
+  const std::uint64_t ofEach = sample / cells;
+  const std::vector<std::uint64_t> withOneMore = drawnPlaces(cells, sample % cells, random);
   std::vector<GoalMismatch> drawn;
-  const std::uint64_t ofEach = std::max<std::uint64_t>(sample / matrix.cells.size(), 1);
-  for (const GoalCell& cell : matrix.cells) {
-    std::set<std::uint64_t> places;
-    while (places.size() < std::min<std::uint64_t>(ofEach, cell.episodes.size()))
-      places.insert(random.below(cell.episodes.size()));
-    for (const std::uint64_t place : places)
+  for (std::size_t c = 0; c < cells; ++c) {
+    const GoalCell& cell = matrix.cells[c];
+    const bool isMore = std::binary_search(withOneMore.begin(), withOneMore.end(), c);
+    for (const std::uint64_t place :
+         drawnPlaces(cell.episodes.size(), ofEach + (isMore ? 1 : 0), random))
       drawn.push_back(
           {cell.keeper, cell.striker, numberOf(matrix.config, place), cell.episodes[place], {}});
   }

@@ -1,30 +1,17 @@
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "ResultJson.hpp"
 #include "ortung/benchmark/GoalMatrix.hpp"
 #include "ortung/benchmark/Ratings.hpp"
 
 namespace ortung {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kFormat = "ortung goalkeeper benchmark 1";
 constexpr std::string_view kLetters = "gsot";  ///< letters of the outcomes, in their order
-
-std::string hexadecimal(std::uint64_t word, int digits) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%0*llx", digits, static_cast<unsigned long long>(word));
-  return text;
-}
-
-Json toJson(const Interval& interval) {
-  return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
-}
 
 Json toJson(const ErrorSummary& error) {
   return {{"episodes", error.episodes},
@@ -47,37 +34,6 @@ void addErrors(Json& json, const std::string& who, const std::optional<ErrorSumm
   }
   json[who + "_errors_um"] = positions;
   json[who + "_errors_urad"] = headings;
-}
-
-/// Reads a whole number, which JSON's library would also make of fractions, negative and greater
-/// numbers. @throws std::runtime_error
-std::int64_t whole(const Json& json, const std::string& what, std::int64_t low, std::int64_t high) {
-  const bool isLow = json.is_number_integer() && !json.is_number_unsigned();
-  const bool fits = json.is_number_unsigned()
-                        ? high >= 0 && json.get<std::uint64_t>() <= static_cast<std::uint64_t>(high)
-                        : isLow && json.get<std::int64_t>() <= high;
-  if (!fits || json.get<std::int64_t>() < low)
-    throw std::runtime_error(what + " is " + json.dump().substr(0, 40) + ", expected " +
-                             std::to_string(low) + " to " + std::to_string(high));
-  return json.get<std::int64_t>();
-}
-
-template <class T>
-std::vector<T> wholeNumbers(const Json& json, const std::string& what, std::int64_t low,
-                            std::int64_t high) {
-  std::vector<T> numbers;
-  for (const Json& one : json) numbers.push_back(static_cast<T>(whole(one, what, low, high)));
-  return numbers;
-}
-
-/// Reads names of players, which are shown. @throws std::runtime_error
-std::vector<std::string> namesOf(const Json& json) {
-  auto names = json.get<std::vector<std::string>>();
-  for (const std::string& name : names)
-    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
-      throw std::runtime_error("the name " + Json(name).dump() +
-                               " has control characters, expected a player's text");
-  return names;
 }
 
 /// Reads the pose errors of one of the two players. @throws std::runtime_error
@@ -197,49 +153,42 @@ std::string toJson(const GoalMatrix& matrix, std::string_view version) {
   return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-GoalMatrix readGoalMatrix(std::string_view text, const std::string& name) {
-  const auto refuse = [&](const std::string& why) -> GoalMatrix {
-    throw std::runtime_error(name + ": is not a result of `ortung benchmark goalkeeper`: " + why);
+namespace {
+
+GoalMatrix matrixIn(const Json& json) {
+  GoalMatrix matrix;
+  GoalMatrixConfig& c = matrix.config;
+  matrix.world = json.at("world");
+  if (!json.at("seed").is_number_unsigned())
+    throw std::runtime_error("the seed is " + json.at("seed").dump().substr(0, 40) +
+                             ", expected a whole number from 0 on");
+  c.seed = json.at("seed");
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const auto count = [&](const char* key) {
+    return static_cast<std::uint64_t>(whole(json.at(key), key, 1, kMost));
   };
-  try {
-    const Json json = Json::parse(text);
-    if (!json.is_object() || json.value("format", "") != kFormat)
-      return refuse(std::string("expected the format '") + kFormat + "'");
-    GoalMatrix matrix;
-    GoalMatrixConfig& c = matrix.config;
-    matrix.world = json.at("world");
-    if (!json.at("seed").is_number_unsigned())
-      return refuse("the seed is " + json.at("seed").dump().substr(0, 40) +
-                    ", expected a whole number from 0 on");
-    c.seed = json.at("seed");
-    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    const auto count = [&](const char* key) {
-      return static_cast<std::uint64_t>(whole(json.at(key), key, 1, kMost));
-    };
-    c.episodes = count("episodes");
-    c.shard = count("shard");
-    c.shards = count("shards");
-    c.keepers = namesOf(json.at("keepers"));
-    c.strikers = namesOf(json.at("strikers"));
-    c.check();
-    const Json& cells = json.at("cells");
-    if (!cells.is_array() || cells.size() != c.keepers.size() * c.strikers.size())
-      return refuse("expected a cell for each keeper and striker");
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      matrix.cells.push_back(readCell(cells[i], c));
-      if (matrix.cells[i].keeper != c.keepers[i / c.strikers.size()] ||
-          matrix.cells[i].striker != c.strikers[i % c.strikers.size()])
-        return refuse("cell " + std::to_string(i) + " is not in its place");
-    }
-    return matrix;
-  } catch (const Json::exception& error) {
-    return refuse(error.what());
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  } catch (const std::runtime_error& error) {
-    if (std::string(error.what()).starts_with(name + ": ")) throw;
-    return refuse(error.what());
+  c.episodes = count("episodes");
+  c.shard = count("shard");
+  c.shards = count("shards");
+  c.keepers = namesOf(json.at("keepers"));
+  c.strikers = namesOf(json.at("strikers"));
+  c.check();
+  const Json& cells = json.at("cells");
+  if (!cells.is_array() || cells.size() != c.keepers.size() * c.strikers.size())
+    throw std::runtime_error("expected a cell for each keeper and striker");
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    matrix.cells.push_back(readCell(cells[i], c));
+    if (matrix.cells[i].keeper != c.keepers[i / c.strikers.size()] ||
+        matrix.cells[i].striker != c.strikers[i % c.strikers.size()])
+      throw std::runtime_error("cell " + std::to_string(i) + " is not in its place");
   }
+  return matrix;
+}
+
+}  // namespace
+
+GoalMatrix readGoalMatrix(std::string_view text, const std::string& name) {
+  return readResult(text, name, kFormat, "`ortung benchmark goalkeeper`", matrixIn);
 }
 
 }  // namespace ortung

@@ -32,9 +32,10 @@ void Agent::begin(PlayerSeat& seat) {
     if (ball_ == nullptr) throw std::runtime_error("its robot has no feature 'ball'");
   }
   if (settings_.sight != Sight::kLocalized) return;
-  self_.emplace(seat);
-  if (settings_.startsAnywhere) return;
-  self_->startNear(robot_.state().pose, kNearPosition, kNearHeading, seat.random());
+  if (settings_.startsAnywhere)
+    self_.emplace(seat);
+  else
+    self_.emplace(seat, robot_.state().pose, kNearPosition, kNearHeading);
 }
 
 void Agent::setAction(std::span<const float> action) {
@@ -51,10 +52,17 @@ bool Agent::senseAndAct(PlayerSeat& seat) {
   return true;
 }
 
+/// Sights and observations ask for the same time.
+const std::optional<PoseEstimate>& Agent::beliefAt(Timestamp stamp) {
+  if (!believed_ || believed_->stamp != stamp)
+    believed_.emplace(Believed{stamp, self_->estimate(stamp)});
+  return believed_->estimate;
+}
+
 /// Returns its pose as it believes it.
-Pose2 Agent::poseAt(Timestamp stamp) const {
+Pose2 Agent::poseAt(Timestamp stamp) {
   if (!self_) return robot_.state().pose;
-  const auto estimate = self_->estimate(stamp);
+  const auto& estimate = beliefAt(stamp);
   return estimate ? estimate->pose : Pose2{};
 }
 
@@ -64,7 +72,10 @@ void Agent::see(Timestamp stamp, double x, double y) {
 }
 
 void Agent::look(Timestamp now) {
-  if (self_) self_->update(*seat_);
+  if (self_) {
+    self_->update(*seat_);
+    believed_.reset();
+  }
   lookForBall(now);
   lookForOther(now);
 }
@@ -110,7 +121,7 @@ void Agent::write(const std::optional<Seen>& seen, Timestamp now, ObservationWri
 
 void Agent::observe(Timestamp now, double timeLeft, std::span<float> out) {
   ObservationWriter writer(out);
-  const auto estimate = self_ ? self_->estimate(now) : std::nullopt;
+  const auto estimate = self_ ? beliefAt(now) : std::nullopt;
   const Pose2 pose = estimate ? estimate->pose : self_ ? Pose2{} : robot_.state().pose;
   const RobotState& state = robot_.state();
   writer.add(pose.x - kGoalLine, kFar);

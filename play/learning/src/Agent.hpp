@@ -39,7 +39,14 @@ class Agent : public Player {
     double y = 0.0;  ///< y in the goal's frame [m]
   };
 
-  Pose2 poseAt(Timestamp stamp) const;
+  /// MCL's belief at a time.
+  struct Believed {
+    Timestamp stamp = 0;
+    std::optional<PoseEstimate> estimate;
+  };
+
+  const std::optional<PoseEstimate>& beliefAt(Timestamp stamp);
+  Pose2 poseAt(Timestamp stamp);
   void lookForBall(Timestamp now);
   void lookForOther(Timestamp now);
   void see(Timestamp stamp, double x, double y);
@@ -57,6 +64,7 @@ class Agent : public Player {
   std::array<std::optional<Seen>, kSights> sights_;  ///< last sights of the ball, the newest first
   std::optional<Seen> other_;
   std::optional<SelfLocalization> self_;
+  std::optional<Believed> believed_;  ///< what was asked last since readings were taken over
   std::array<float, 3> action_{};
   bool hasNewAction_ = false;
 };

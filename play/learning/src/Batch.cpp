@@ -21,6 +21,8 @@ constexpr std::size_t kMostEpisodes = 65'536;
 constexpr unsigned kMostThreads = 256;
 /// Chunks per thread, so that threads end at about the same time.
 constexpr std::size_t kChunksPerThread = 4;
+/// Number of episodes from which a core's caches do not keep one until its next turn.
+constexpr std::size_t kMany = 128;
 
 /// A place in which consecutive episodes are played.
 struct Slot {
@@ -100,28 +102,35 @@ struct Batch::Parts {
   }
 
   template <class Work>
-  void forAll(const Work& work);
+  void forChunks(const Work& work);
+  /// Calls work(stand, i) for all slots, as forChunks().
+  template <class Work>
+  void forAll(const Work& work) {
+    forChunks([&work](Stand& stand, std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) work(stand, i);
+    });
+  }
   Stand& standOf(std::size_t chunk) {
     if (!stands[chunk]) stands[chunk] = std::make_unique<Stand>(field);
     return *stands[chunk];
   }
   void begin(Stand& stand, std::size_t i);
-  void step(Stand& stand, std::size_t i, std::span<const float> actions);
+  void restart(Stand& stand, std::size_t i, std::optional<std::uint64_t> seed);
+  void step(Stand& stand, std::size_t i, std::span<const float> actions, const Episode* next);
   void clear(std::size_t i);
   void look(std::size_t i);
   void checkActions(std::span<const float> actions) const;
   std::shared_ptr<const Settings> read(std::size_t slot, const Options& options);
 };
 
-/// Calls work(stand, i) for all slots. The first exception, in the order of slots, is rethrown when
-/// all are done.
+/// Calls work(stand, first, end) for the slots [first, end) of each chunk. The first exception, in
+/// the order of slots, is rethrown when all are done.
 template <class Work>
-void Batch::Parts::forAll(const Work& work) {
+void Batch::Parts::forChunks(const Work& work) {
   workers.run(stands.size(), [&](std::size_t chunk) {
     failures[chunk] = nullptr;
     try {
-      Stand& stand = standOf(chunk);
-      for (std::size_t i = firstOf(chunk); i < firstOf(chunk + 1); ++i) work(stand, i);
+      work(standOf(chunk), firstOf(chunk), firstOf(chunk + 1));
     } catch (...) {
       failures[chunk] = std::current_exception();
     }
@@ -146,12 +155,23 @@ void Batch::Parts::begin(Stand& stand, std::size_t i) {
   look(i);
 }
 
+/// Begins an episode from outside: with a seed number 0, without one the next number.
+void Batch::Parts::restart(Stand& stand, std::size_t i, std::optional<std::uint64_t> seed) {
+  Slot& slot = slots.at(i);
+  slot.number = seed ? 0 : slot.number + 1;
+  if (seed) slot.seed = *seed;
+  clear(i);
+  begin(stand, i);
+}
+
 void Batch::Parts::look(std::size_t i) {
   slots[i].episode->observe(std::span(observations).subspan(i * seen(), seen()));
   slots[i].episode->state(std::span(states).subspan(i * Episode::kState, Episode::kState));
 }
 
-void Batch::Parts::step(Stand& stand, std::size_t i, std::span<const float> actions) {
+/// @param next see Episode::step()
+void Batch::Parts::step(Stand& stand, std::size_t i, std::span<const float> actions,
+                        const Episode* next) {
   Slot& slot = slots[i];
   clear(i);
   if (!slot.episode || slot.episode->isOver()) {  // no episode: a player was stopped
@@ -159,7 +179,7 @@ void Batch::Parts::step(Stand& stand, std::size_t i, std::span<const float> acti
     return begin(stand, i);
   }
   try {
-    slot.episode->step(actions.subspan(i * agents() * width, agents() * width), width);
+    slot.episode->step(actions.subspan(i * agents() * width, agents() * width), width, next);
   } catch (...) {
     slot.episode.reset();
     throw;
@@ -225,28 +245,26 @@ void Batch::reset(std::span<const std::uint64_t> seeds) {
   if (seeds.size() != size())
     throw std::invalid_argument(info().id + ": " + std::to_string(seeds.size()) +
                                 " seeds, expected " + std::to_string(size()));
-  parts_->forAll([&](Stand& stand, std::size_t i) {
-    parts_->slots[i].seed = seeds[i];
-    parts_->slots[i].number = 0;
-    parts_->clear(i);
-    parts_->begin(stand, i);
-  });
+  parts_->forAll([&](Stand& stand, std::size_t i) { parts_->restart(stand, i, seeds[i]); });
 }
 
 void Batch::reset() {
-  parts_->forAll([&](Stand& stand, std::size_t i) {
-    ++parts_->slots[i].number;
-    parts_->clear(i);
-    parts_->begin(stand, i);
-  });
+  parts_->forAll([&](Stand& stand, std::size_t i) { parts_->restart(stand, i, std::nullopt); });
 }
 
 void Batch::reset(std::size_t episode, std::optional<std::uint64_t> seed) {
-  Slot& slot = parts_->slots.at(episode);
-  slot.number = seed ? 0 : slot.number + 1;
-  if (seed) slot.seed = *seed;
-  parts_->clear(episode);
-  parts_->begin(parts_->standOf(parts_->chunkOf(episode)), episode);
+  parts_->restart(parts_->standOf(parts_->chunkOf(episode)), episode, seed);
+}
+
+void Batch::reset(std::span<const std::uint8_t> places,
+                  std::span<const std::optional<std::uint64_t>> seeds) {
+  if (places.size() != size() || (!seeds.empty() && seeds.size() != size()))
+    throw std::invalid_argument(info().id + ": " + std::to_string(places.size()) + " flags and " +
+                                std::to_string(seeds.size()) + " seeds, expected " +
+                                std::to_string(size()) + " of each, or no seeds");
+  parts_->forAll([&](Stand& stand, std::size_t i) {
+    if (places[i] != 0) parts_->restart(stand, i, seeds.empty() ? std::nullopt : seeds[i]);
+  });
 }
 
 void Batch::setOptions(const Options& options) {
@@ -270,7 +288,12 @@ void Batch::record(std::size_t episode, const std::filesystem::path& file) {
 
 void Batch::step(std::span<const float> actions) {
   parts_->checkActions(actions);
-  parts_->forAll([&](Stand& stand, std::size_t i) { parts_->step(stand, i, actions); });
+  parts_->forChunks([&](Stand& stand, std::size_t first, std::size_t end) {
+    const bool areMany = parts_->slots.size() >= kMany;
+    for (std::size_t i = first; i < end; ++i)
+      parts_->step(stand, i, actions,
+                   areMany && i + 1 < end ? parts_->slots[i + 1].episode.get() : nullptr);
+  });
 }
 
 std::span<const float> Batch::observations() const { return parts_->observations; }

@@ -1,5 +1,8 @@
 #include "Episode.hpp"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,11 +32,15 @@ constexpr Pose2 kStrikerWaits{3.0, 0.0, std::numbers::pi};
 /// Distance from the striker's middle to a ball at its kicker [m].
 constexpr double kBallAhead = 0.285;
 constexpr int kTries = 50;
+/// Greatest distance of the episode's memory from itself [bytes].
+constexpr std::uintptr_t kMemoryReach = 192 * 1024;
+constexpr std::size_t kCacheLine = 64;  ///< [bytes]
 
 Simulation::Config configOf(const Settings& settings, Random seeds) {
   Simulation::Config config;
   config.seed = (std::uint64_t{seeds.next()} << 32) | seeds.next();
   config.cycle = settings.cycle;
+  config.likeVersion02 = true;  // what the environments' versions promise
   return config;
 }
 
@@ -54,6 +61,44 @@ std::string nearestFirst(const std::string& word, std::span<const std::string_vi
   std::string all;
   for (const std::string& one : words) all += (all.empty() ? "" : ", ") + one;
   return all + (meant.empty() ? "" : " (did you mean '" + meant + "'?)");
+}
+
+/// Asks for memory that will be written to. With many episodes most of what memory costs is the
+/// look-up of addresses in page tables, and prefetching for readers may be dropped where it would
+/// need one; prefetching for writers is not.
+void askToWrite(std::span<const std::byte> memory) {
+  for (std::size_t at = 0; at < memory.size(); at += kCacheLine) {
+    const std::byte* line = memory.data() + at;
+#ifdef __x86_64__
+    asm volatile("prefetchw %0" : : "m"(*line));  // older processors ignore it
+#else
+    __builtin_prefetch(line, 1);
+    asm volatile(""
+                 :
+                 : "r"(line));  // or the compiler leaves out the calls, as nothing comes of them
+#endif
+  }
+}
+
+/// Returns the pages between two addresses that have memory, which they get when they are written
+/// to first.
+std::vector<std::span<const std::byte>> writtenBetween(std::uintptr_t first, std::uintptr_t last) {
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  first = first / page * page;
+  std::vector<unsigned char> isThere((last - first + page - 1) / page, 1);
+  if (::mincore(reinterpret_cast<void*>(first), last - first, isThere.data()) != 0)
+    isThere.assign(isThere.size(), 1);
+  std::vector<std::span<const std::byte>> pieces;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < isThere.size(); begin = end + 1) {
+    const auto hasMemory = [&](std::size_t i) { return (isThere[i] & 1U) != 0; };
+    end = begin;
+    while (end < isThere.size() && hasMemory(end)) ++end;
+    if (end > begin)
+      pieces.emplace_back(reinterpret_cast<const std::byte*>(first + begin * page),
+                          (end - begin) * page);
+  }
+  return pieces;
 }
 
 /// Makes the player of an option. An unknown one is told with the names that the option has.
@@ -148,9 +193,46 @@ Episode::Episode(Stand& stand, std::shared_ptr<const Settings> settings, std::ui
   checkPlayers();
   if (!record.empty()) beginRecord(record);
   sense();
+  findMemory();
 }
 
 Episode::~Episode() = default;
+
+/// What it consists of was made in one go, and what was there before has left its room to it. So
+/// nearly all of it lies between the parts that are known here. In between is also what nothing was
+/// ever written to: the physics engine has a stack of 100 kB, of which it needs little.
+void Episode::findMemory() {
+  const auto addressOf = [](const void* part) { return reinterpret_cast<std::uintptr_t>(part); };
+  const std::uintptr_t middle = addressOf(this);
+  std::uintptr_t first = middle;
+  std::uintptr_t last = middle + sizeof(Episode);
+  const auto take = [&](const void* part, std::size_t size) {
+    const std::uintptr_t begin = addressOf(part);
+    if (begin + kMemoryReach < middle || begin > middle + kMemoryReach) return;
+    first = std::min(first, begin);
+    last = std::max(last, begin + size);
+  };
+  take(&simulation_.world(), sizeof(SimWorld));
+  take(simulation_.things().data(), simulation_.things().size_bytes());
+  for (const SimRobot* robot : {keeper_, striker_}) {
+    take(robot, sizeof(SimRobot));
+    take(&robot->drive(), sizeof(Drive));
+    for (const auto& data : robot->container().all()) take(data.get(), sizeof(SensorData));
+  }
+  for (const Agent* agent : agents_) take(agent, sizeof(Agent));
+  memory_ = writtenBetween(first, last);
+}
+
+void Episode::prefetch(int part, int parts) const {
+  const auto share = [parts](std::size_t all, int upTo) {
+    return all * static_cast<std::size_t>(upTo) / static_cast<std::size_t>(parts);
+  };
+  for (const std::span<const std::byte> piece : memory_) {
+    const std::size_t lines = piece.size() / kCacheLine;
+    const std::size_t from = share(lines, part);
+    askToWrite(piece.subspan(from * kCacheLine, (share(lines, part + 1) - from) * kCacheLine));
+  }
+}
 
 /// Places the striker with the ball at its kicker. If it must localize itself, it may be farther
 /// away and face less towards the goal.
@@ -209,11 +291,12 @@ void Episode::sense() {
   if (record_) record_->write(simulation_.readings(settings_->keeperIsAgent() ? 0 : 1));
 }
 
-void Episode::step(std::span<const float> actions, std::size_t width) {
+void Episode::step(std::span<const float> actions, std::size_t width, const Episode* next) {
   for (std::size_t i = 0; i < agents_.size(); ++i)
     agents_[i]->setAction(actions.subspan(i * width, width));
   const Game game;
   for (int i = 0; i < settings_->cycles && !isOver(); ++i) {
+    if (next != nullptr) next->prefetch(i, settings_->cycles);
     control_.act(game);
     checkPlayers();
     simulation_.move();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -70,7 +71,9 @@ class Episode {
 
   /// Plays one step. @param actions shape (agents, width) @throws std::runtime_error if a player
   /// was stopped
-  void step(std::span<const float> actions, std::size_t width);
+  /// @param next the episode to be stepped next, whose memory is asked for meanwhile; null: the
+  ///   caches have it
+  void step(std::span<const float> actions, std::size_t width, const Episode* next = nullptr);
   /// Ends the record, if there is one. @throws std::runtime_error
   void endRecord();
   bool isOver() const { return ending_ != Ending::kNone; }
@@ -81,6 +84,9 @@ class Episode {
   void reward(std::span<double> out) const;
   /// Writes the true state. @param out one row of Batch::states()
   void state(std::span<float> out) const;
+  /// Asks for its memory, so that the caches have it soon; in parts, since a core waits for few
+  /// answers at a time. @param part in [0, parts)
+  void prefetch(int part = 0, int parts = 1) const;
 
   static constexpr std::size_t kState = 12;
 
@@ -90,6 +96,7 @@ class Episode {
   void seat(Stand::Entrant& entrant, SimRobot& robot, bool isAgent, bool isStriker);
   void beginRecord(const std::filesystem::path& file);
   void sense();
+  void findMemory();
   void checkPlayers() const;
   Random stream(std::uint64_t which) const { return Random(seed_, 4 * number_ + which); }
 
@@ -107,6 +114,8 @@ class Episode {
   Ending ending_ = Ending::kNone;
   int steps_ = 0;
   std::unique_ptr<EpisodeRecord> record_;  ///< null: it is not recorded, or has ended
+  /// Where most of its memory lies.
+  std::vector<std::span<const std::byte>> memory_;
 };
 
 }  // namespace ortung::learning

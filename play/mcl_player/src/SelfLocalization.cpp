@@ -37,13 +37,20 @@ std::unique_ptr<MotionModel> makeMotion(const Parameters& motion) {
   return ortung::makeMotion(motion, factory);
 }
 
+std::unique_ptr<Mcl> makeMcl(PlayerSeat& seat) {
+  checkTaught(seat);
+  return std::make_unique<Mcl>(readConfig(seat), *seat.taught().region,
+                               makeMotion(seat.taught().motion));
+}
+
 }  // namespace
 
-SelfLocalization::SelfLocalization(PlayerSeat& seat) {
-  checkTaught(seat);
-  mcl_ = std::make_unique<Mcl>(readConfig(seat), *seat.taught().region,
-                               makeMotion(seat.taught().motion));
-  mcl_->startGlobal();
+SelfLocalization::SelfLocalization(PlayerSeat& seat) : mcl_(makeMcl(seat)) { mcl_->startGlobal(); }
+
+SelfLocalization::SelfLocalization(PlayerSeat& seat, const Pose2& truth, double sigmaPosition,
+                                   double sigmaHeading)
+    : mcl_(makeMcl(seat)) {
+  startNear(truth, sigmaPosition, sigmaHeading, seat.random());
 }
 
 SelfLocalization::~SelfLocalization() = default;

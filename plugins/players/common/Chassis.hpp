@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "Plane.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/sim_api/Player.hpp"
 
 namespace ortung {
@@ -24,6 +25,20 @@ struct WheelPlaces {
     return wheels;
   }
 };
+
+inline const PlayerOption kWheelAnglesOption{"wheel_angles_deg", "a,b,c in deg", "60,180,300",
+                                             "wheel angles of a robot on three wheels"};
+inline const PlayerOption kWheelDistanceOption{"wheel_distance_m", "m", "0.2",
+                                               "distance of these wheels from its middle"};
+
+/// Reads both. @throws ConfigError
+inline WheelPlaces wheelsOption(const Parameters& p) {
+  WheelPlaces wheels;
+  const auto angles = p.numbersOr("wheel_angles_deg", {60.0, 180.0, 300.0}, 3, {-360.0, 360.0});
+  for (std::size_t i = 0; i < wheels.angles.size(); ++i) wheels.angles.at(i) = radians(angles[i]);
+  wheels.radius = p.numberOr("wheel_distance_m", wheels.radius, {0.01, 10.0});
+  return wheels;
+}
 
 /// Moves a robot as its kind of drive can: with three wheels in any direction while it turns;
 /// others turn into the direction of motion.
@@ -77,7 +92,7 @@ class Chassis {
 
  private:
   /// Larger errors of heading are corrected before it drives [rad].
-  static constexpr double kFacing = 0.6;
+  static constexpr double kFacing = 1.1;
 
   DriveLimits limits_;
   std::optional<WheelPlaces> wheels_;

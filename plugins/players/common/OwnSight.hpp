@@ -11,6 +11,7 @@
 
 #include "ScanPose.hpp"
 #include "Steering.hpp"
+#include "ortung/base/Angles.hpp"
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/ObjectsData.hpp"
@@ -74,6 +75,17 @@ class OwnSight {
     if (self_) self_->update(seat);
     stamp_ = seat.now();
     pose_ = poseAt(seat, stamp_);
+  }
+  /// Turns a pose on the other half of the field to its own. A field looks the same from both ends
+  /// to a scanner, and MCL may find the wrong one after the referee has carried the robot.
+  /// @param goal middle of the goal that the robot does not leave, in the field frame, whose origin
+  ///   is the field's middle
+  void keepTo(const FloorPoint& goal) {
+    constexpr double kBeyond = 0.5;  // from the middle line [m]
+    constexpr double kWithin = 0.2;  // standard deviation of what is turned [m], [rad]
+    if (!self_ || !pose_ || pose_->x * (goal.x > 0.0 ? 1.0 : -1.0) > -kBeyond) return;
+    pose_ = Pose2{-pose_->x, -pose_->y, wrapAngle(pose_->theta + 0.5 * kTurn)};
+    self_->startAt(*pose_, kWithin, kWithin);
   }
   /// Returns the robot's current pose; nothing before the first readings.
   const std::optional<Pose2>& pose() const { return pose_; }

@@ -23,10 +23,15 @@ inline std::optional<FloorPoint> openCorner(const Moment& m, const FloorPoint& f
   constexpr int kPlaces = 9;
   constexpr double kGap = 0.12;  // gap between ball and body [m]
   const double reach = std::max(m.ground.halfMouth - 0.3, 0.1);
+  // A ball on the line, too, goes into the goal and not along the line.
+  constexpr double kDeep = 0.4;  // [m]
+  const bool isOnLine =
+      m.forward * (m.otherGoal().x - from.x) < kDeep && std::abs(from.y) < m.ground.halfMouth;
+  const double line = m.otherGoal().x + (isOnLine ? m.forward * kDeep : 0.0);
   std::optional<FloorPoint> best;
   double most = 0.0;
   for (int i = 0; i < kPlaces; ++i) {
-    const FloorPoint to{m.otherGoal().x, reach * (2.0 * i / (kPlaces - 1) - 1.0)};
+    const FloorPoint to{line, reach * (2.0 * i / (kPlaces - 1) - 1.0)};
     double room = 0.6;
     for (const Other& other : m.view.others)
       if (dot(other.at - from, to - from) > 0.0)
@@ -37,6 +42,17 @@ inline std::optional<FloorPoint> openCorner(const Moment& m, const FloorPoint& f
     }
   }
   return best;
+}
+
+/// Returns whether a ball from @p from in the direction of @p to could end in the own goal, or
+/// close to it.
+inline bool isAtOwnGoal(const Moment& m, const FloorPoint& from, const FloorPoint& to) {
+  constexpr double kBeside = 1.0;  // how far beside the goal is close [m]
+  constexpr double kFar = 9.0;     // it does not roll farther [m]
+  const FloorPoint way = unit(to - from);
+  if (way.x * m.forward > -0.1) return false;
+  const double away = (m.ownGoal().x - from.x) / way.x;
+  return away < kFar && std::abs(from.y + away * way.y) < m.ground.halfMouth + kBeside;
 }
 
 /// Returns the place of the mate to whom a pass from @p from is best: unmarked, with a free lane,
@@ -55,6 +71,7 @@ inline std::optional<FloorPoint> bestMate(const Moment& m, const FloorPoint& fro
     const double progress = m.forward * (to.x - from.x);
     const double alone = m.view.opponentTo(to);
     if (way < kNear || way > kFar || progress < -backward || alone < kAlone) continue;
+    if (isAtOwnGoal(m, from, to)) continue;
     View others = m.view;
     std::erase_if(others.others,
                   [&](const Other& one) { return one.isMate && lengthOf(one.at - mate.at) < 0.1; });

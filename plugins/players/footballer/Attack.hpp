@@ -47,6 +47,7 @@ class Attack {
     // Once the ball is between the horns it may turn with it; a short loss does not end that.
     if (has) return carry(m, ball);
     m.hands.hold(false, m.robot);
+    if (isJammed(m) && poke(m)) return;
     fetch(m);
   }
 
@@ -56,13 +57,50 @@ class Attack {
   bool isHad(const FloorPoint& ball) const {
     return ball.x > 0.1 && ball.x < skill_.ballAhead + 0.07 && std::abs(ball.y) < 0.1;
   }
+  /// Returns whether the ball has not come away for some time, e.g. from between two robots, or a
+  /// restart is not taken.
+  bool isJammed(const Moment& m) {
+    const FloorPoint ball = m.view.ball->at;
+    const bool isNear = lengthOf(ball - m.view.place()) < kNear;
+    if (lengthOf(ball - lay_) > kSamePlace || !isNear) lay_ = ball, laySince_ = m.view.now;
+    if (!owesPass_) owedSince_.reset();
+    if (owesPass_ && !owedSince_) owedSince_ = m.view.now;
+    if (!owedSince_) return m.view.now - laySince_ > kJammed;
+    // Near the own goal most ways to the ball are wrong ones.
+    const bool isAtHome = lengthOf(m.ownGoal() - ball) < 0.6 * m.ground.halfLength;
+    return !isAtHome && m.view.now - *owedSince_ > kHurries;
+  }
+  /// Goes straight at the ball and kicks it away, whatever is aimed at. @returns whether it did; it
+  /// does not if the ball could go towards the own goal
+  bool poke(const Moment& m) {
+    const FloorPoint from = m.view.place();
+    const FloorPoint ball = m.view.ball->at;
+    const FloorPoint way = unit(ball - from);
+    if (isAtOwnGoal(m, from, ball)) return false;
+    // Nor does it drive into a post before nothing else has helped.
+    const bool isAtPost =
+        std::any_of(m.ground.posts.begin(), m.ground.posts.end(), [&](const Disc& post) {
+          return distanceToWay(post.at, from, ball + kBehind * way) < post.radius + kBallRadius;
+        });
+    if (isAtPost && m.view.now - laySince_ < 2 * kJammed) return false;
+    const double toBall = angleOf(way);
+    const double error = wrapAngle(toBall - m.view.pose.theta);
+    if (lengthOf(ball - from) > 1.0) {
+      go_.to(m, ball, toBall, m.chassis.limits().speed);
+      return true;
+    }
+    if (std::abs(error) < 0.3 && lengthOf(ball - from) < skill_.ballAhead + 0.1)
+      m.hands.kick(false, m.robot);
+    m.chassis.move(m.view.pose, m.chassis.limits().speed * way, toBall, m.robot);
+    return true;
+  }
   /// Returns the distance behind the ball from which it approaches it [m].
   double behind() const { return skill_.ballAhead + kBehind; }
   double had(Timestamp now) const { return since_ ? toSeconds(now - *since_) : 0.0; }
 
   /// Chooses what to do with the ball. A choice holds for some time.
   void choose(const Moment& m, Random& random) {
-    const Timestamp keeps = owesPass_ ? 3 * kKeeps : kKeeps;
+    const Timestamp keeps = owesPass_ ? 6 * kKeeps : kKeeps;
     if (aim_ && m.view.now - chosen_ < keeps && aim_->kind != Aim::Kind::kCarry) return;
     const Aim::Kind before = aim_ ? aim_->kind : Aim::Kind::kCarry;
     aim_ = best(m);
@@ -175,8 +213,17 @@ class Attack {
   /// Distance behind the ball from which it approaches [m].
   static constexpr double kBehind = 0.28;
 
+  static constexpr double kNear = 1.2;       ///< farthest that a robot is that tries to get it [m]
+  static constexpr double kSamePlace = 0.3;  ///< a ball that stays so near has not moved [m]
+  static constexpr Timestamp kJammed = 3'500'000;  ///< how long a ball must lie to be jammed [us]
+  /// How long it prepares a restart before it takes it in any way [us].
+  static constexpr Timestamp kHurries = 4'000'000;
+
   Skill skill_;
   Go go_;
+  FloorPoint lay_;  ///< place of the ball since laySince_
+  Timestamp laySince_ = 0;
+  std::optional<Timestamp> owedSince_;  ///< time since which it owes a pass
   std::optional<Aim> aim_;
   Timestamp chosen_ = 0;
   std::optional<Timestamp> since_;  ///< time since which it has the ball; nothing: it has not

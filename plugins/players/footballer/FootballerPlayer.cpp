@@ -43,9 +43,7 @@ struct Settings {
     sizes.halfLength = p.numberOr("length_m", 0.0, {0.0, 1000.0}) / 2.0;
     sizes.halfWidth = p.numberOr("width_m", 0.0, {0.0, 1000.0}) / 2.0;
     sizes.halfMouth = p.numberOr("goal_width_m", 0.0, {0.0, 100.0}) / 2.0;
-    const auto angles = p.numbersOr("wheel_angles_deg", {60.0, 180.0, 300.0}, 3, {-360.0, 360.0});
-    for (std::size_t i = 0; i < angles.size(); ++i) wheels.angles.at(i) = radians(angles[i]);
-    wheels.radius = p.numberOr("wheel_distance_m", wheels.radius, {0.01, 10.0});
+    wheels = wheelsOption(p);
   }
 };
 
@@ -66,6 +64,7 @@ class FootballerPlayer : public Player {
   double period() const override { return settings_.period; }
   bool needsStage() const override { return settings_.sees == "truth"; }
   bool needsTables() const override { return settings_.sees == "localized"; }
+  std::optional<BelievedPose> believedPose() const override { return believed_; }
 
   void begin(PlayerSeat& seat) override {
     ground_ = Ground::of(seat.field(), settings_.sizes);
@@ -83,6 +82,7 @@ class FootballerPlayer : public Player {
   bool senseAndAct(PlayerSeat& seat) override {
     mates_.hear(seat.heard(), seat.now());
     std::optional<View> view = eyes_->look(seat, mates_);
+    if (view) believed_ = BelievedPose{seat.now(), view->pose};
     if (!view) {                     // its pose is unknown: it turns to see more
       constexpr double kTurn = 0.8;  // [rad/s]
       chassis_->drive(0.0, seat.game().mayPlay(seat.team()) ? kTurn : 0.0, seat.robot());
@@ -95,7 +95,8 @@ class FootballerPlayer : public Player {
       if (seat.game().phase == Game::Phase::kReady) view->ball->speedX = view->ball->speedY = 0.0;
     }
     const FloorPoint ball = view->ball ? view->ball->at : guess(seat.game(), forward);
-    const double cost = costOf(moment, ball);
+    const bool isRestart = seat.game().phase == Game::Phase::kReady;
+    const double cost = costOf(moment, ball, isRestart);
     talk(seat, *view, cost);
     if (!seat.game().mayPlay(seat.team())) {
       role_ = Role::kCover;
@@ -125,16 +126,20 @@ class FootballerPlayer : public Player {
 
   /// Returns the time until it has the ball on the right side [s]; an attacker has a bonus, so that
   /// roles are stable.
-  double costOf(const Moment& m, const FloorPoint& ball) const {
-    constexpr double kNever = 1000.0;   // or last of all if the ball is not seen
-    constexpr double kLoyalty = 0.5;    // [s]
-    constexpr double kWrongSide = 0.8;  // [s]
+  double costOf(const Moment& m, const FloorPoint& ball, bool isRestart) const {
+    constexpr double kNever = 1000.0;  // or last of all if the ball is not seen
+    // At a restart nobody else comes for the ball, so one taker is better than the nearest one.
+    const double loyalty = isRestart ? 2.0 : 0.5;  // [s]
+    constexpr double kWrongSide = 0.8;             // [s]
     if (!m.view.ball) return kNever + lengthOf(ball - m.view.place());
-    const Meeting meeting = meet(*m.view.ball, m.view.pose, m.chassis.limits());
+    DriveLimits limits = m.chassis.limits();
+    constexpr double kAtOnce = 1e3;                 // [rad/s]
+    if (m.chassis.isOmni()) limits.turn = kAtOnce;  // it turns on its way
+    const Meeting meeting = meet(*m.view.ball, m.view.pose, limits);
     const FloorPoint way = unit(meeting.at - m.view.place());
     const FloorPoint wanted = unit(m.otherGoal() - meeting.at);
     const double wrong = 0.5 * (1.0 - dot(way, wanted));
-    return meeting.after + kWrongSide * wrong - (role_ == Role::kAttack ? kLoyalty : 0.0);
+    return meeting.after + kWrongSide * wrong - (role_ == Role::kAttack ? loyalty : 0.0);
   }
 
   void talk(PlayerSeat& seat, const View& view, double cost) {
@@ -203,8 +208,8 @@ class FootballerPlayer : public Player {
 
   /// Goes to the place of its role, and faces the ball.
   void takePlace(const Moment& m, const FloorPoint& ball) {
-    constexpr double kNear = 0.2, kFar = 0.6;  // [m]
-    constexpr double kClear = 0.4;             // distance from the ball [m]
+    constexpr double kNear = 0.15, kFar = 0.35;  // [m]
+    constexpr double kClear = 0.4;               // distance from the ball [m]
     m.hands.hold(false, m.robot);
     const FloorPoint place = placeOf(role_, ground_, m.forward, ball);
     const double away = lengthOf(place - m.view.place());
@@ -222,6 +227,7 @@ class FootballerPlayer : public Player {
   std::optional<Eyes> eyes_;
   std::optional<Attack> attack_;
   Mates mates_;
+  std::optional<BelievedPose> believed_;
   Go go_;
   Unjam unjam_;
   Role role_ = Role::kCover;
@@ -248,9 +254,8 @@ struct FootballerHelp : PlayerHelp {
              {"length_m", "m", "of the field", "distance between the goal lines"},
              {"width_m", "m", "of the field", "distance between the touch lines"},
              {"goal_width_m", "m", "of the field", "distance between the posts"},
-             {"wheel_angles_deg", "a,b,c in deg", "60,180,300",
-              "wheel angles of a robot on three wheels"},
-             {"wheel_distance_m", "m", "0.2", "distance of these wheels from its middle"},
+             kWheelAnglesOption,
+             kWheelDistanceOption,
              {"period_s", "s", "0.04", "time between two decisions"}}) {}
 };
 

@@ -51,14 +51,18 @@ class Go {
     for (const Other& other : m.view.others) discs.push_back({foreseen(other, from), other.radius});
     std::copy_if(m.ground.posts.begin(), m.ground.posts.end(), std::back_inserter(discs),
                  [&](const Disc& post) { return lengthOf(post.at - from) < 2.0 * kLook; });
-    const auto way = direction(from, target, m.view.radius, discs);
-    if (!way) return m.chassis.stand(m.robot);
-    const double fast = std::min(speed, m.chassis.speedFor(away));
+    auto way = direction(from, target, m.view.radius, discs);
+    double fast = std::min(speed, m.chassis.speedFor(away));
+    if (!way) {  // it is hemmed in, e.g. in a goal behind its keeper: it pushes slowly
+      way = angleOf(target - from);
+      fast = std::min(fast, kPushes);
+    }
     m.chassis.move(m.view.pose, fast * towards(*way), heading, m.robot);
   }
 
  private:
-  static constexpr double kLook = 1.2;  ///< how far ahead the path must be free [m]
+  static constexpr double kPushes = 0.3;  ///< speed if no way is free [m/s]
+  static constexpr double kLook = 1.2;    ///< how far ahead the path must be free [m]
   static constexpr double kStep = 10.0 * kDegree;
   static constexpr int kSteps = 14;     ///< number of steps to either side
   static constexpr int kLoyal = 3;      ///< number of steps by which the other side must be better

@@ -28,7 +28,9 @@ inline FloorPoint supportPlace(const Ground& ground, double forward, const Floor
   double along = forward * ball.x + (isAhead ? 0.35 : -0.22) * ground.halfLength;
   // It is outside of both penalty areas.
   along = std::clamp(along, -0.55 * ground.halfLength, 0.68 * ground.halfLength);
-  return {forward * along, side * (isAhead ? 0.4 : 0.55) * ground.halfWidth};
+  // The farther aside the ball is, the farther aside, so that they move with it.
+  const double aside = (isAhead ? 0.25 : 0.4) * ground.halfWidth + 0.3 * std::abs(ball.y);
+  return {forward * along, side * aside};
 }
 
 /// Returns the place of a role, clear of the ball.

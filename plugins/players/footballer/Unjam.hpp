@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "Moment.hpp"
@@ -18,7 +19,11 @@ class Unjam {
       if (m.chassis.isOmni()) {
         m.chassis.move(m.view.pose, 0.8 * towards(away_), m.view.pose.theta, m.robot);
       } else {
-        m.chassis.drive(-0.5, away_ > 0.0 ? 1.2 : -1.2, m.robot);
+        m.chassis.drive(-0.7,
+                        std::abs(away_) < kStraight ? 0.0
+                        : away_ > 0.0               ? 1.2
+                                                    : -1.2,
+                        m.robot);
       }
       return true;
     }
@@ -41,6 +46,8 @@ class Unjam {
   static constexpr double kMoved = 0.15;             ///< distance that counts as motion [m]
   static constexpr Timestamp kPatience = 1'600'000;  ///< time without motion until it acts [us]
   static constexpr Timestamp kFreeing = 700'000;     ///< duration of the manoeuvre [us]
+  /// Up to this direction it goes straight back: between posts it can't turn [rad].
+  static constexpr double kStraight = 0.7 * std::numbers::pi;
   FloorPoint anchor_;
   Timestamp since_ = 0;
   Timestamp until_ = 0;

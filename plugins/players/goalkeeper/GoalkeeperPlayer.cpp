@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "Chassis.hpp"
+#include "ComingOut.hpp"
 #include "GoalSide.hpp"
+#include "Ground.hpp"
 #include "OwnSight.hpp"
 #include "Policy.hpp"
 #include "Steering.hpp"
@@ -31,6 +34,9 @@ struct Settings {
   double reach = 0.75;      ///< how far it goes to either side of the goal's middle [m]
   double slack = 0.0;       ///< distance from its line beyond which it steers back [m]
   double braking = 0.2943;  ///< deceleration of a rolling ball [m/s^2]: 0.03 of gravity
+  /// Distance from the goal's middle within which it leaves its line for a slow ball [m]; 0: never.
+  double comesOut = 0.0;
+  WheelPlaces wheels;  ///< wheels of a robot that has three
 
   explicit Settings(const Parameters& p) {
     const std::string name = p.choiceOr("policy", "intercepting", kPolicies);
@@ -45,6 +51,8 @@ struct Settings {
     reach = p.numberOr("reach_m", reach, {0.0, 10.0});
     slack = p.numberOr("slack_m", slack, {0.0, 1.0});
     braking = p.numberOr("braking_m_s2", braking, {0.0, 10.0});
+    comesOut = p.numberOr("comes_out_m", comesOut, {0.0, 10.0});
+    wheels = wheelsOption(p);
   }
 };
 
@@ -62,16 +70,14 @@ class GoalkeeperPlayer : public Player {
   std::optional<BelievedPose> believedPose() const override { return own_.believed(); }
 
   void begin(PlayerSeat& seat) override {
-    goal_ = GoalSide::at(seat.field(), -seat.game().directionOf(seat.team()));
-    line_ = {goal_.middle, goal_.before(settings_.lineOut, 0.0).x, settings_.reach};
-    mind_.emplace(settings_.policy, line_);
     limits_ = limitsOf(seat, settings_.speed);
-    own_.begin(seat, {line_.x, goal_.middle.y, std::numbers::pi / 2.0}, kPlacedWithin,
-               kPlacedTurned);
+    takeGoal(seat);
   }
 
   bool senseAndAct(PlayerSeat& seat) override {
+    if (seat.game().directionOf(seat.team()) != direction_) takeGoal(seat);  // after half-time
     own_.update(seat);
+    own_.keepTo(goal_.middle);
     const std::optional<Pose2>& pose = own_.pose();
     if (!pose) return true;  // there are no readings yet
     look(seat, *pose);
@@ -79,6 +85,8 @@ class GoalkeeperPlayer : public Player {
       Steering::stand(seat.robot());
       return true;
     }
+    if (out_ && out_->act(seat.now(), *pose, newestBall(seat.now()), *chassis_, seat.robot()))
+      return true;
     const std::optional<double> wanted =
         mind_->decide(seat.now(), pose->y, newestBall(seat.now()), seat.random());
     if (!wanted || limits_.speed <= 0.0) {
@@ -103,6 +111,27 @@ class GoalkeeperPlayer : public Player {
     FloorPoint at;
     double sigma = 0.0;  ///< standard deviation of a coordinate [m]
   };
+
+  /// Takes the place before the goal that its team defends now.
+  void takeGoal(PlayerSeat& seat) {
+    direction_ = seat.game().directionOf(seat.team());
+    goal_ = GoalSide::at(seat.field(), -direction_);
+    line_ = {goal_.middle, goal_.before(settings_.lineOut, 0.0).x, settings_.reach};
+    mind_.emplace(settings_.policy, line_);
+    if (settings_.comesOut > 0.0) prepareToComeOut(seat);
+    own_.begin(seat, {line_.x, goal_.middle.y, std::numbers::pi / 2.0}, kPlacedWithin,
+               kPlacedTurned);
+  }
+  void prepareToComeOut(PlayerSeat& seat) {
+    const RobotAbilities& able = seat.abilities();
+    // Out there it is in a hurry: the greatest speed on its line is not meant.
+    chassis_.emplace(able.limits, able.motionKind == motion::kOmni3
+                                      ? std::optional(settings_.wheels)
+                                      : std::nullopt);
+    Ground sizes{1.0, 1.0, 0.0, {}};  // only the width of the goal matters
+    sizes = Ground::of(seat.field(), sizes);
+    out_.emplace(settings_.comesOut, goal_, sizes.halfMouth, able.radius);
+  }
 
   bool isExact() const { return own_.isTruth() && settings_.noise == 0.0; }
   bool isAway(const Pose2& pose) const {
@@ -173,10 +202,13 @@ class GoalkeeperPlayer : public Player {
 
   Settings settings_;
   OwnSight own_;
+  double direction_ = 1.0;  ///< direction in which its team plays along x, 1 or -1
   GoalSide goal_;
   KeeperLine line_;
   std::optional<KeeperMind> mind_;
   DriveLimits limits_;
+  std::optional<Chassis> chassis_;  ///< drive to a ball, if it comes out
+  std::optional<ComingOut> out_;
   BallTrack track_;
   std::deque<Sight> coming_;  ///< sightings that are not known yet because of the delay
   Timestamp newest_ = -1;     ///< stamp of the newest sighting
@@ -184,19 +216,23 @@ class GoalkeeperPlayer : public Player {
 
 struct GoalkeeperHelp : PlayerHelp {
   explicit GoalkeeperHelp(const Parameters&)
-      : PlayerHelp("keeps a goal by one of six policies",
-                   {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
-                     "how it moves along its line"},
-                    kSeesOption,
-                    {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
-                    {"delay_s", "s", "0", "delay of its sight"},
-                    {"noise_m", "m", "0", "standard deviation of where it sees the ball"},
-                    {"period_s", "s", "0.04", "time between two decisions"},
-                    {"line_m", "m", "0.5", "distance of its line from the goal line"},
-                    {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
-                    {"slack_m", "m", "0", "distance from its line beyond which it steers back"},
-                    {"braking_m_s2", "m/s^2", "0.2943",
-                     "deceleration of a rolling ball that it assumes"}}) {}
+      : PlayerHelp(
+            "keeps a goal by one of six policies",
+            {{"policy", "still|random|pattern|blocking|intercepting|mixed", "intercepting",
+              "how it moves along its line"},
+             kSeesOption,
+             {"speed_m_s", "m/s", "1.5", "how fast it drives at most"},
+             {"delay_s", "s", "0", "delay of its sight"},
+             {"noise_m", "m", "0", "standard deviation of where it sees the ball"},
+             {"period_s", "s", "0.04", "time between two decisions"},
+             {"line_m", "m", "0.5", "distance of its line from the goal line"},
+             {"reach_m", "m", "0.75", "how far it goes to either side of the goal's middle"},
+             {"slack_m", "m", "0", "distance from its line beyond which it steers back"},
+             {"braking_m_s2", "m/s^2", "0.2943", "deceleration of a rolling ball that it assumes"},
+             {"comes_out_m", "m", "0",
+              "distance from its goal within which it leaves its line for a slow ball"},
+             kWheelAnglesOption,
+             kWheelDistanceOption}) {}
 };
 
 }  // namespace

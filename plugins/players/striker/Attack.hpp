@@ -48,6 +48,13 @@ struct Attack {
     const double side = stands && stands->y > goal.middle.y ? -1.0 : 1.0;
     return {goal.middle.x, goal.middle.y + side * (halfMouth - kWithin)};
   }
+  /// Returns a random place between two distances before the goal line and at most so far aside
+  /// from the goal's middle [m]. Its numbers are drawn one by one, since a compiler may compute
+  /// arguments of a call in any order.
+  FloorPoint somewhere(Random& random, double nearest, double farthest, double aside) const {
+    const double y = random.uniform(-aside, aside);
+    return goal.before(random.uniform(nearest, farthest), y);
+  }
   /// Places the robot, and the ball at its kicker. @returns whether there is room
   bool putWithBall(PlayerSeat& seat, const Pose2& pose) const {
     return put(seat, pose, pose * Pose2{ballAhead, 0.0, 0.0}, {});

@@ -19,7 +19,7 @@ class Dribble : public Strike {
 
   bool setUp(PlayerSeat& seat) override {
     Random& random = seat.random();
-    const FloorPoint at = attack_.goal.before(random.uniform(3.5, 5.0), random.uniform(-1.5, 1.5));
+    const FloorPoint at = attack_.somewhere(random, 3.5, 5.0, 1.5);
     shootsFrom_ = random.uniform(1.8, 2.8);
     kicked_ = false;
     const double off = random.uniform(-0.2, 0.2);
@@ -98,9 +98,8 @@ class Seek : public Dribble {
 
   bool setUp(PlayerSeat& seat) override {
     Random& random = seat.random();
-    const FloorPoint at = attack_.goal.before(random.uniform(4.5, 6.5), random.uniform(-2.5, 2.5));
-    const FloorPoint ball =
-        attack_.goal.before(random.uniform(2.5, 3.8), random.uniform(-2.0, 2.0));
+    const FloorPoint at = attack_.somewhere(random, 4.5, 6.5, 2.5);
+    const FloorPoint ball = attack_.somewhere(random, 2.5, 3.8, 2.0);
     shootsFrom_ = random.uniform(2.0, 4.0);
     kicked_ = hasCarried_ = isUpToIt_ = false;
     const Pose2 pose{at.x, at.y, random.uniform(-std::numbers::pi, std::numbers::pi)};
@@ -166,7 +165,7 @@ class Feint : public Dribble {
 
   bool setUp(PlayerSeat& seat) override {
     Random& random = seat.random();
-    const FloorPoint at = attack_.goal.before(random.uniform(4.6, 5.2), random.uniform(-0.5, 0.5));
+    const FloorPoint at = attack_.somewhere(random, 4.6, 5.2, 0.5);
     side_ = random.uniform() < 0.5 ? -1.0 : 1.0;
     out_ = random.uniform(0.7, 1.2);
     depth_ = random.uniform(3.2, 3.6);

@@ -18,8 +18,7 @@ class Roll : public Strike {
   bool setUp(PlayerSeat& seat) override {
     constexpr double kBehind = 0.6;  // the robot [m]
     Random& random = seat.random();
-    const FloorPoint from =
-        attack_.goal.before(random.uniform(3.0, 4.5), random.uniform(-2.0, 2.0));
+    const FloorPoint from = attack_.somewhere(random, 3.0, 4.5, 2.0);
     const FloorPoint to = attack_.goal.before(0.0, aim(seat, random));
     const double arrives = random.uniform(2.0, 4.5);  // [m/s]
     const double way = std::hypot(to.x - from.x, to.y - from.y);
@@ -59,7 +58,7 @@ class Shot : public Strike {
   bool setUp(PlayerSeat& seat) override {
     constexpr double kAim = 0.03;  // standard deviation of its direction [rad]
     Random& random = seat.random();
-    const FloorPoint at = attack_.goal.before(random.uniform(2.5, 4.5), random.uniform(-2.0, 2.0));
+    const FloorPoint at = attack_.somewhere(random, 2.5, 4.5, 2.0);
     const double error = kAim * random.gaussian();
     kickAt_ = seat.now() + fromSeconds(random.uniform(0.1, 0.6));
     kicked_ = false;

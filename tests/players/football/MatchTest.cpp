@@ -54,7 +54,7 @@ struct Match {
 };
 
 TEST(FootballMatch, OfFourAgainstFourHasGoalsAndGoesOn) {
-  Match match("f2000_match.toml", 1, 200.0);
+  Match match("f2000_match.toml", 3, 200.0);
   EXPECT_GE(match.count["goal"], 1) << match.log;
   EXPECT_EQ(match.count["kick-off"], 1 + match.count["goal"]);
   EXPECT_EQ(match.count["set-piece-over"], 0) << match.log;

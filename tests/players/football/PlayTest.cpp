@@ -9,6 +9,7 @@
 #include "ortung/formats/PlacesData.hpp"
 #include "ortung/sim/PlayerWish.hpp"
 #include "ortung/sim/SceneRun.hpp"
+#include "ortung/sim_api/Referee.hpp"
 
 namespace ortung {
 namespace {
@@ -90,6 +91,50 @@ TEST(Footballer, GoesRoundRobotsThatStandInItsWay) {
     EXPECT_GT(robot.state().pose.x, 0.5) << sees;
     EXPECT_LT(distance(one.state().pose, {-2.0, 0.1, 0.0}), 0.02) << "pushed, " << sees;
     EXPECT_LT(distance(two.state().pose, {0.0, -0.3, 0.0}), 0.02) << "pushed, " << sees;
+  }
+}
+
+// Where the paths of balls end that nobody has fetched: on the line behind it, at a post, before
+// it.
+TEST(Goalkeeper, ComesOutForABallThatLiesNearItsGoalAndPushesItAway) {
+  const std::pair<double, double> places[] = {
+      {-5.9, 0.0}, {-5.95, 0.7}, {-5.92, -0.85}, {-5.4, 0.9}, {-4.8, -0.3}};
+  for (const auto& [x, y] : places) {
+    Playing playing("f2000.toml");
+    playing.put(x, y);
+    playing.add("goalkeeper:comes_out_m=1.6&start=-5.5,0.0,90@blue");
+    double deepest = 0.0;
+    const bool isAway = playing.until(10.0, [&] {
+      deepest = std::min(deepest, playing.ball().x);
+      return distance(playing.ball(), {-6.0, 0.0, 0.0}) > 1.6;
+    });
+    EXPECT_TRUE(isAway) << x << " " << y;
+    EXPECT_GT(deepest, -6.1) << "all of the ball was not behind the line, " << x << " " << y;
+  }
+  Playing playing("f2000.toml");
+  playing.put(-5.9, 0.0);
+  playing.add("goalkeeper:start=-5.5,0.0,90@blue");
+  playing.until(5.0, [] { return false; });
+  EXPECT_LT(distance(playing.ball(), {-5.9, 0.0, 0.0}), 0.01) << "only if it is told to";
+}
+
+TEST(Goalkeeper, DefendsTheOtherGoalAfterHalfTime) {
+  PluginFactory factory(PluginFactory::standardFolders());
+  Scene scene = Playing::scene("f2000.toml");
+  scene.referee = parseReferee("soccer:league=f2000");
+  SceneRun run(scene, {.seed = 1}, factory, {.budget = 0.0});
+  const SimRobot& blue = run.addPlayer(parsePlayer("goalkeeper:name=b&comes_out_m=1@blue"), 1);
+  const SimRobot& yellow = run.addPlayer(parsePlayer("goalkeeper:name=y@yellow"), 2);
+  const auto play = [&](double seconds) {
+    const Timestamp end = run.simulation().now() + fromSeconds(seconds);
+    while (run.simulation().now() < end) run.step();
+  };
+  for (const double side : {-1.0, 1.0}) {
+    play(25.0);
+    // Its line is 0.5 m before the goal at 6 m; it steers back from 0.4 m off.
+    EXPECT_NEAR(blue.state().pose.x, 5.5 * side, 0.45);
+    EXPECT_NEAR(yellow.state().pose.x, -5.5 * side, 0.45);
+    run.referee()->order("second-half");
   }
 }
 

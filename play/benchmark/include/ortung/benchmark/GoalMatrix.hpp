@@ -120,9 +120,9 @@ struct GoalMismatch {
   GoalEpisode told;   ///< the result in the file
   GoalEpisode found;  ///< the result when it was played again
 };
-/// Plays some episodes of a matrix again, drawn evenly from each cell by a seed. @returns those
-/// that differ
-/// @param sample number of episodes over all cells, at least one of each cell
+/// Plays some episodes of a matrix again, drawn by a seed: from each cell as many as from the
+/// others, or one more. @returns those that differ
+/// @param sample number of episodes over all cells; if there are fewer, all of them
 /// @param played out: number of episodes that were played
 ORTUNG_API std::vector<GoalMismatch> verify(const GoalMatrix& matrix, std::uint64_t sample,
                                             std::uint64_t seed, const GoalMatrixRun& run,
@@ -134,6 +134,12 @@ ORTUNG_API std::string toJson(const GoalMatrix& matrix, std::string_view version
 /// Reads what toJson() has written. @param name the file's name for error messages
 /// @throws std::runtime_error for another file, or one whose figures are inconsistent
 ORTUNG_API GoalMatrix readGoalMatrix(std::string_view json, const std::string& name);
+/// Computes all figures of a file anew from its episodes: counts, rates, times, differences,
+/// ratings.
+/// @param json the text of which readGoalMatrix() has made the matrix
+/// @returns a sentence for each one that differs by more than a millionth, is missing or unknown;
+///   the version alone may be any
+ORTUNG_API std::vector<std::string> wrongFigures(std::string_view json, const GoalMatrix& matrix);
 /// Writes tables for users: scoring rates with intervals, time to score, paired differences.
 ORTUNG_API std::string toText(const GoalMatrix& matrix);
 

@@ -61,6 +61,13 @@ class ORTUNG_API Batch {
   void reset();
   /// Begins one episode: with a seed number 0, without one the next number.
   void reset(std::size_t episode, std::optional<std::uint64_t> seed);
+  /// Begins episodes in some places on all threads; the others stay where they are.
+  /// @param places flags, shape (N)
+  /// @param seeds shape (N), or empty: as for reset() of one episode; those of other places are not
+  ///   used
+  /// @throws std::invalid_argument for other sizes; then nothing has changed
+  void reset(std::span<const std::uint8_t> places,
+             std::span<const std::optional<std::uint64_t>> seeds);
   /// Set the options for episodes that begin from now on, in all places or in one. @throws
   /// ConfigError, PluginError; then nothing has changed
   void setOptions(const Options& options);

@@ -31,6 +31,9 @@ class ORTUNG_API SelfLocalization {
   /// @throws std::runtime_error for a robot without tables, or without a feature that localizes;
   ///   ConfigError, PluginError, std::invalid_argument for its settings
   explicit SelfLocalization(PlayerSeat& seat);
+  /// Begins near the true pose, as startNear() with the seat's random generator, without the
+  /// preparations of global localization. @throws as above
+  SelfLocalization(PlayerSeat& seat, const Pose2& truth, double sigmaPosition, double sigmaHeading);
   ~SelfLocalization();
   SelfLocalization(const SelfLocalization&) = delete;
   SelfLocalization& operator=(const SelfLocalization&) = delete;
