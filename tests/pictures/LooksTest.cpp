@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "Paths.hpp"
 #include "Snapshots.hpp"
@@ -95,6 +96,71 @@ TEST(Looks, AreTheSameBitsWithAllInstructionSets) {
     }
     useInstructionSet(std::nullopt);
   }
+}
+
+/// A drawing of the camera's own faces, which is its picture.
+std::vector<std::uint32_t> drawn(const CameraPicture& camera, const World& world,
+                                 const Pose2& sensor, const Lighting& light) {
+  const ImageSize size = camera.sheet().size();
+  std::vector<std::uint32_t> colours(static_cast<std::size_t>(size.width * size.height));
+  world.draw({cameraPoseOf(camera.camera(), sensor), camera.sheet().faces(), size.width,
+              size.height, 0, light},
+             {colours});
+  return colours;
+}
+
+TEST(Looks, OfAPatternedFloorAreOnTheFloorAlone) {
+  const auto world = msl();
+  CameraPicture camera(viewOf(kEye, 0.7, radians(20.0)));
+  const Pose2 sensor{7.0, 1.0, 0.2};
+  const Annotation shown = annotate(camera, *world, sensor);
+  Lighting light;
+  const std::vector<std::uint32_t> even = drawn(camera, *world, sensor, light);
+  light.grain = 0.4F;
+  const std::vector<std::uint32_t> patterned = drawn(camera, *world, sensor, light);
+  double floor = 0.0, changed = 0.0, sum = 0.0;
+  for (int v = 1; v + 1 < shown.size.height; ++v)
+    for (int u = 1; u + 1 < shown.size.width; ++u) {
+      const std::size_t i = shown.index(u, v);
+      if (!shown.isInside(u, v)) continue;  // edges are partly floor
+      if (shown.kind(u, v) == PixelClass::kField) {
+        const int difference =
+            static_cast<int>(patterned[i] >> 8 & 0xFFU) - static_cast<int>(even[i] >> 8 & 0xFFU);
+        floor += 1.0;
+        changed += difference != 0;
+        sum += difference;
+      } else if (shown.object(u, v) != 0 || (even[i] & 0xFFFFFFU) == 0xFFFFFFU) {
+        EXPECT_EQ(patterned[i] & 0xFFFFFFU, even[i] & 0xFFFFFFU) << u << ", " << v;
+      }
+    }
+  ASSERT_GT(floor, 20'000.0);
+  EXPECT_GT(changed, 0.7 * floor);
+  EXPECT_NEAR(sum / floor, 0.0, 4.0) << "the floor is as bright as before in the mean";
+}
+
+/// A pattern lies on the floor: where the camera goes does not matter.
+TEST(Looks, OfAPatternStayInPlaceWhenTheCameraMoves) {
+  const auto world = worldOf(
+      "[world]\nx_m = [-9, 9]\ny_m = [-9, 9]\n[[landmark]]\nkind = \"none\"\n"
+      "identity = 1\nposition_m = [0, 0]\n");
+  CameraPicture camera(viewOf(kEye, 1.0, radians(90.0)));
+  Lighting light;
+  light.patches = 0.4F;
+  light.seed = 5;
+  const auto before = drawn(camera, *world, {0.0, 0.0, 0.0}, light);
+  // Straight down from a height of 1 m, 180 px are a metre: 36 pixels up are 0.2 m ahead.
+  const auto after = drawn(camera, *world, {0.2, 0.0, 0.0}, light);
+  const ImageSize size = camera.sheet().size();
+  const auto width = static_cast<std::size_t>(size.width);
+  std::set<std::uint32_t> shades;
+  for (std::size_t v = 0; v + 36 < static_cast<std::size_t>(size.height); ++v)
+    for (std::size_t u = 0; u < width; ++u) {
+      const int one = static_cast<int>(before[v * width + u] & 0xFFU);
+      const int other = static_cast<int>(after[(v + 36) * width + u] & 0xFFU);
+      shades.insert(before[v * width + u] & 0xFFU);
+      ASSERT_NEAR(one, other, 2) << u << ", " << v;
+    }
+  EXPECT_GT(shades.size(), 3u);
 }
 
 TEST(Looks, OfWhatACameraDoesNotSeeAreBlack) {

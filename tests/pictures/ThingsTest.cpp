@@ -97,7 +97,7 @@ void compareWithRays(CameraPicture& camera, const FullWorld& scene, const Pose2&
         continue;
       }
       if (floor > 60.0 && isFloor) continue;
-      EXPECT_NEAR(seen.ranges[seen.index(u, v)], expected, 0.006 + 0.004 * expected)
+      EXPECT_NEAR(seen.ranges[seen.index(u, v)], expected, 0.002)
           << u << ", " << v << " class " << static_cast<int>(kind);
       ++compared;
     }
@@ -118,16 +118,51 @@ TEST(Things, AreWhereRaysMeetThemAfterTheyHaveMoved) {
   compareWithRays(camera, scene, {0.0, 0.0, 0.05}, 2000);
 }
 
+constexpr const char* kMirror =
+    "model = \"unified\"\nsize_px = [300, 300]\nxi = 0.95\nfocal_px = [115, 115]\n";
+
 TEST(Things, AreWhereRaysMeetThemInAMirror) {
   const FullWorld scene;
-  CameraPicture camera(
-      viewOf("model = \"unified\"\nsize_px = [300, 300]\nxi = 0.95\nfocal_px = [115, 115]\n", 0.7,
-             radians(90.0)));
-  // The nearest texel is up to 0.7 of a pixel off, so only what faces the camera is comparable.
+  CameraPicture camera(viewOf(kMirror, 0.7, radians(90.0)));
+  compareWithRays(camera, scene, {0.0, 0.0, 0.05}, 2000);
   const Annotation seen = annotate(camera, *scene.world, {0.0, 0.0, 0.0}, scene.own);
   std::set<std::uint32_t> objects;
   for (const std::uint32_t thing : seen.things) objects.insert(thing >> 8);
   EXPECT_EQ(objects.size(), 6u);  // nothing, wall, post, triangle, robot, ball
+}
+
+/// A pixel is one of a line if the ray through its middle meets the line's rectangle, however far
+/// away and narrow it is there.
+TEST(Things, ThatAreLinesAreThoseOfThePixelsMiddles) {
+  const auto world = worldOf(
+      "[world]\nx_m = [-6, 6]\ny_m = [-5, 5]\n[[rectangle]]\nkind = \"line\"\n"
+      "center_m = [1.5, 0]\nsize_m = [0.03, 8]\n[[rectangle]]\nkind = \"line\"\n"
+      "center_m = [-4.5, 0]\nsize_m = [0.03, 8]\n");
+  for (const char* model : {kMirror, kEye}) {
+    CameraPicture camera(viewOf(model, 0.7, radians(model == kMirror ? 90.0 : 15.0)));
+    const Annotation seen = annotate(camera, *world, {0.0, 0.0, 0.0});
+    int near = 0, far = 0;
+    for (int v = 0; v < seen.size.height; ++v)
+      for (int u = 0; u < seen.size.width; ++u) {
+        const auto ray = camera.camera().rayAt({static_cast<double>(u), static_cast<double>(v)});
+        if (!ray || ray->z > -1e-3) continue;
+        const double x = ray->x * 0.7 / -ray->z;
+        const double y = ray->y * 0.7 / -ray->z;
+        const bool isNear = std::abs(x - 1.5) < 0.015;
+        const bool isFar = std::abs(x + 4.5) < 0.015;
+        const bool isLine = std::abs(y) < 4.0 && (isNear || isFar);
+        near += isLine && isNear;
+        far += isLine && isFar;
+        const double off =
+            std::min(std::abs(std::abs(x - 1.5) - 0.015), std::abs(std::abs(x + 4.5) - 0.015));
+        if (off < 1e-4 || std::abs(std::abs(y) - 4.0) < 1e-3) continue;
+        EXPECT_EQ(seen.kind(u, v) == PixelClass::kLine, isLine) << u << ", " << v;
+      }
+    EXPECT_GT(near, 100);
+    if (model == kMirror) {
+      EXPECT_GT(far, 5) << "a line of a fifth of a pixel";
+    }
+  }
 }
 
 TEST(Things, AreOfTheirClassAndTheirPlaceAmongObjects) {

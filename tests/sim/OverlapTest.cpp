@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "Physics.hpp"
+#include "ortung/base/Angles.hpp"
 
 // Bodies that drive do not get into each other, into walls or into what they push, and what they
 // push too weakly stays where it is.
@@ -56,6 +58,68 @@ TEST(Overlap, HeadOnRobotsStayApart) {
       EXPECT_GT(nearest, 0.4 - kDeepest) << speed << " m/s, " << aside << " m aside";
     }
   }
+}
+
+/// Returns how deep two rectangles that stand alike overlap along the axes of the first [m].
+double depthAlong(const Pose2& a, const Primitive& pa, const Pose2& b, const Primitive& pb) {
+  const Pose2 seen = inverse(a * Pose2{pa.centre.x, pa.centre.y, 0.0}) *
+                     (b * Pose2{pb.centre.x, pb.centre.y, 0.0});
+  const double c = std::abs(std::cos(seen.theta));
+  const double s = std::abs(std::sin(seen.theta));
+  return std::min(pa.halfX + c * pb.halfX + s * pb.halfY - std::abs(seen.x),
+                  pa.halfY + s * pb.halfX + c * pb.halfY - std::abs(seen.y));
+}
+
+/// How deep two bodies of rectangles overlap, by the axes along which these could be apart [m].
+double depthOf(const Pose2& a, const Pose2& b, const std::vector<Primitive>& pieces) {
+  double deepest = -1.0;
+  for (const Primitive& one : pieces)
+    for (const Primitive& other : pieces)
+      deepest =
+          std::max(deepest, std::min(depthAlong(a, one, b, other), depthAlong(b, other, a, one)));
+  return deepest;
+}
+
+// Ten robots of three pieces that all want to the ball between them, for a minute: as if all
+// contacts were swept, whatever the solver did (9 cycles of 6000 deeper than 3 mm, 4.8 mm at
+// worst).
+TEST(Overlap, InACrowdIsRareAndShallow) {
+  Physics physics({.cycle = kCycle}, room());
+  const std::vector<Primitive> pieces{box(-0.04, 0.0, 0.42, 0.5), box(0.205, 0.195, 0.07, 0.11),
+                                      box(0.205, -0.195, 0.07, 0.11)};
+  std::vector<Physics::Body> robots;
+  for (int i = 0; i < 10; ++i) {
+    const double angle = 0.2 * std::numbers::pi * i;
+    robots.push_back(physics.add(pieces, {30.0, Physics::Floor::kDrives},
+                                 {2.0 * std::cos(angle), 2.0 * std::sin(angle), angle + 3.0}));
+  }
+  const Primitive round = circle(0.11);
+  const auto ball = physics.add({&round, 1}, {0.43, Physics::Floor::kRolls}, {});
+  int deep = 0;
+  double deepest = 0.0;
+  constexpr int kCycles = 6000;
+  for (int cycle = 0; cycle < kCycles; ++cycle) {
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      const Pose2& pose = physics.pose(robots[i]);
+      const Pose2& goal = physics.pose(ball);
+      const double error = wrapAngle(std::atan2(goal.y - pose.y, goal.x - pose.x) - pose.theta);
+      const bool backs = (cycle / 200 + static_cast<int>(i)) % 5 == 0;
+      physics.want(robots[i],
+                   {(backs ? -1.0 : 2.0 * std::cos(error)) * kCycle, 0.0, 3.0 * error * kCycle});
+    }
+    physics.step(kCycle);
+    double now = 0.0;
+    for (std::size_t i = 0; i < robots.size(); ++i)
+      for (std::size_t k = i + 1; k < robots.size(); ++k)
+        now = std::max(now, depthOf(physics.pose(robots[i]), physics.pose(robots[k]), pieces));
+    deep += now > kDeepest ? 1 : 0;
+    deepest = std::max(deepest, now);
+  }
+  RecordProperty("deep", deep);
+  RecordProperty("deepest_mm", std::to_string(1e3 * deepest));
+  EXPECT_GT(deepest, 0.0005) << "they met";
+  EXPECT_LT(deep, 0.005 * kCycles);
+  EXPECT_LT(deepest, 0.009);
 }
 
 TEST(Overlap, RobotsDoNotGetIntoWallsOrCrates) {

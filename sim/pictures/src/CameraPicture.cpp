@@ -1,10 +1,10 @@
 #include "ortung/pictures/CameraPicture.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "Faces.hpp"
 #include "Resampling.hpp"
 #include "SensorEffects.hpp"
 #include "ortung/camera/ImageData.hpp"
@@ -26,10 +26,10 @@ CameraView checked(CameraView camera) {
 
 struct CameraPicture::Effects {
   Effects(const SensorEffects& all, ImageSize size)
-      : share(static_cast<std::uint32_t>(std::lround(256.0F * all.blur))), rows(all, size) {}
-  std::uint32_t share;  ///< share of a pixel's light that goes to each neighbour, of 256
+      : blurred(static_cast<std::uint32_t>(std::lround(256.0F * all.blur)), size.width),
+        rows(all, size) {}
+  BlurredRows blurred;
   EffectRows rows;
-  std::vector<std::uint32_t> row;
 };
 
 CameraPose cameraPoseOf(const CameraView& camera, const Pose2& sensor) {
@@ -83,48 +83,45 @@ void CameraPicture::take(const World& world, const Pose2& sensor, RobotNumber se
   develop(noise, ImageData::pixelsOf(words));
 }
 
+/// Returns a row of the picture before all effects. Rows that are composed stay valid for three.
+const std::uint32_t* CameraPicture::drawnRow(int row) {
+  const auto width = static_cast<std::size_t>(sheet_.picture().width);
+  if (sheet_.isPicture()) return colours_.data() + static_cast<std::size_t>(row) * width;
+  const auto place = static_cast<std::size_t>(row % kRows) * width;
+  const std::span<std::uint32_t> out = std::span(composed_).subspan(place, width);
+  sheet_.resample(colours_, row, 1, out);
+  return out.data();
+}
+
 void CameraPicture::develop(const std::optional<Noise>& noise, std::span<std::uint8_t> rgb) {
   const auto width = static_cast<std::size_t>(sheet_.picture().width);
   const int height = sheet_.picture().height;
-  const bool isBlurred = effects_ && effects_->share > 0;
+  composed_.resize(sheet_.isPicture() ? 0 : kRows * width);
   std::optional<EffectRows::Noise> numbers;
   if (noise) numbers = EffectRows::Noise{noise->seed, noise->stream};
-  if (isBlurred) {
-    pixels_.resize(width * static_cast<std::size_t>(height));
-    sheet_.resample(colours_, 0, height, pixels_);
-    blur(pixels_, sheet_.picture(), effects_->share, effects_->row);
-  } else {
-    pixels_.resize(width);
-  }
+  const std::uint32_t* above = nullptr;
+  const std::uint32_t* here = drawnRow(0);
   for (int row = 0; row < height; ++row) {
-    const std::size_t first = static_cast<std::size_t>(row) * width;
-    std::span<const std::uint32_t> pixels;
-    if (isBlurred) {
-      pixels = std::span<const std::uint32_t>(pixels_).subspan(first, width);
-    } else if (sheet_.isPicture()) {
-      pixels = std::span<const std::uint32_t>(colours_).subspan(first, width);
-    } else {
-      sheet_.resample(colours_, row, 1, pixels_);
-      pixels = pixels_;
-    }
-    const std::span<std::uint8_t> out = rgb.subspan(3 * first, 3 * width);
+    const std::uint32_t* const below = row + 1 < height ? drawnRow(row + 1) : here;
+    std::span<const std::uint32_t> pixels(here, width);
+    if (effects_ && !effects_->blurred.isSharp())
+      pixels = effects_->blurred.blur(row > 0 ? above : here, here, below);
+    const std::span<std::uint8_t> out =
+        rgb.subspan(3 * width * static_cast<std::size_t>(row), 3 * width);
     packRgb(pixels, out.data());
     if (effects_) effects_->rows.apply(row, numbers, out);
+    above = here;
+    here = below;
   }
 }
 
 void CameraPicture::annotate(const World& world, const Pose2& sensor, RobotNumber self,
                              std::span<std::uint32_t> things, std::span<float> ranges) {
-  const auto size = static_cast<std::size_t>(sheet_.size().width) *
-                    static_cast<std::size_t>(sheet_.size().height);
-  things_.resize(things.empty() ? 0 : size);
-  ranges_.resize(ranges.empty() ? 0 : size);
-  Sheet sheet;
-  sheet.things = things_;
-  sheet.ranges = ranges_;
-  world.draw(drawing(sensor, self), sheet);
-  if (!things.empty()) sheet_.pick(things_, 0, things);
-  if (!ranges.empty()) sheet_.pick(ranges_, std::numeric_limits<float>::infinity(), ranges);
+  if (rays_.empty())
+    for (const Point3& ray : PixelRays(camera_.model()).rays)
+      rays_.push_back(
+          {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
+  world.trace({cameraPoseOf(camera_, sensor), rays_, self}, {things, ranges});
 }
 
 }  // namespace ortung

@@ -71,29 +71,4 @@ void CameraSheet::resample(std::span<const std::uint32_t> sheet, int first, int 
   static_cast<void>(count);
 }
 
-template <class Value>
-void CameraSheet::pickNearest(std::span<const Value> sheet, Value nothing,
-                              std::span<Value> out) const {
-  if (isPicture()) {
-    std::copy(sheet.begin(), sheet.end(), out.begin());
-    return;
-  }
-  const auto width = static_cast<std::size_t>(size_.width);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Place& place = places_[i];
-    out[i] = place.texel == nowhere_ ? nothing
-                                     : sheet[place.texel + (place.right >= kShares / 2 ? 1U : 0U) +
-                                             (place.below >= kShares / 2 ? width : std::size_t{0})];
-  }
-}
-
-void CameraSheet::pick(std::span<const std::uint32_t> sheet, std::uint32_t nothing,
-                       std::span<std::uint32_t> out) const {
-  pickNearest(sheet, nothing, out);
-}
-
-void CameraSheet::pick(std::span<const float> sheet, float nothing, std::span<float> out) const {
-  pickNearest(sheet, nothing, out);
-}
-
 }  // namespace ortung

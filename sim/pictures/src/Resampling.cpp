@@ -120,7 +120,9 @@ ORTUNG_AVX2 std::size_t packAvx2(std::span<const std::uint32_t> pixels, std::uin
   return i;
 }
 #else
-constexpr auto packAvx2 = packPortable;
+std::size_t packAvx2(std::span<const std::uint32_t> pixels, std::uint8_t* out) {
+  return packPortable(pixels, out);
+}
 #endif
 
 std::size_t packBest(std::span<const std::uint32_t> pixels, std::uint8_t* out) {
@@ -135,6 +137,7 @@ MixRow pick() {
     case InstructionSet::kAvx2:
       return mixAvx2;
     case InstructionSet::kPortable:
+    case InstructionSet::kNeon:
       break;
   }
   return mixPortable;

@@ -10,10 +10,27 @@
 
 namespace ortung {
 
-/// Blurs a picture. @param share the share of a pixel's light that goes to each of its two
-/// neighbours along each axis, of 256
-void blur(std::span<std::uint32_t> pixels, ImageSize size, std::uint32_t share,
-          std::vector<std::uint32_t>& row);
+/// Blurs rows of a picture.
+class BlurredRows {
+ public:
+  /// @param share the share of a pixel's light that goes to each of its two neighbours along each
+  /// axis, of 256; 0: none
+  BlurredRows(std::uint32_t share, int width)
+      : share_(share),
+        between_(static_cast<std::size_t>(width) + 2),
+        out_(static_cast<std::size_t>(width)) {}
+
+  bool isSharp() const { return share_ == 0; }
+  /// Returns a row, valid until the next call. @param above, below the rows beside it; at the
+  /// picture's edge the row itself
+  std::span<const std::uint32_t> blur(const std::uint32_t* above, const std::uint32_t* here,
+                                      const std::uint32_t* below);
+
+ private:
+  std::uint32_t share_;
+  std::vector<std::uint32_t> between_;
+  std::vector<std::uint32_t> out_;
+};
 
 /// Applies exposure, white balance, vignetting and noise to rows of bytes red, green, blue.
 class EffectRows {
@@ -33,7 +50,7 @@ class EffectRows {
   std::vector<float> gains_;  ///< gain of each byte of a row
   /// Loss of gain of each byte per squared distance from the middle row.
   std::vector<float> losses_;
-  std::vector<float> numbers_;
+  std::vector<float> places_;  ///< place of each run's noise in a table, as a share of it
 };
 
 }  // namespace ortung

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 
 #include "BodyRays.hpp"
@@ -12,6 +14,7 @@
 #include "MapWalls.hpp"
 #include "Painters.hpp"
 #include "RayCaster.hpp"
+#include "SightTracer.hpp"
 #include "WorldModel.hpp"
 #include "ortung/base/Parameters.hpp"
 
@@ -19,10 +22,14 @@ namespace ortung {
 
 SimWorld::~SimWorld() = default;
 void SimWorld::markBody(RobotNumber, const std::string&) {}
+std::shared_ptr<const FieldModel> SimWorld::field() const {
+  return std::make_shared<const FieldModel>(fieldModelOf(*this));
+}
 
 namespace {
 
 constexpr std::size_t kMaxBodies = 4096;
+constexpr std::size_t kFewRobots = 2;     ///< number of robots for which there is room at first
 constexpr Range kBodySize{0.001, 100.0};  ///< size of a moving body's pieces [m]
 
 bool isSane(const RayFan& fan) {
@@ -42,7 +49,7 @@ bool isSane(const ConeFan& fan) {
 constexpr RobotNumber kFixed = std::numeric_limits<RobotNumber>::max();
 
 /// The fixed part of a world, which all its copies share. Thread-safe: immutable, except for the
-/// painters, which are thread-safe.
+/// painters, the tracer, and what is made when it is first asked for, which are thread-safe.
 struct Ground {
   explicit Ground(WorldModel read)
       : model(std::move(read)),
@@ -69,12 +76,17 @@ struct Ground {
   std::vector<WorldObject> objects;
   BodyRays solids;  ///< fixed bodies except maps, for cones
   mutable Painters painters;
+  mutable SightTracer tracer;
+  mutable std::once_flag hasField;
+  mutable std::shared_ptr<const FieldModel> field;
 };
 
 class ModelledWorld final : public SimWorld {
  public:
-  explicit ModelledWorld(std::shared_ptr<const Ground> ground)
-      : ground_(std::move(ground)), objects_(ground_->objects) {}
+  explicit ModelledWorld(std::shared_ptr<const Ground> ground) : ground_(std::move(ground)) {
+    objects_.reserve(ground_->objects.size() + movables().size() + kFewRobots);
+    objects_.assign(ground_->objects.begin(), ground_->objects.end());
+  }
 
   std::unique_ptr<SimWorld> another() const override {
     return std::make_unique<ModelledWorld>(ground_);
@@ -137,6 +149,9 @@ class ModelledWorld final : public SimWorld {
   void draw(const Drawing& drawing, const Sheet& sheet) const override {
     ground_->painters.draw(ground_->model, objects_, ground_->objects.size(), drawing, sheet);
   }
+  void trace(const Sight& sight, const Traced& traced) const override {
+    ground_->tracer.trace(ground_->model, objects_, ground_->objects.size(), sight, traced);
+  }
 
   RobotNumber addBody(const MovingBody& body, const Pose2& pose) override {
     checkPieces(body.pieces);
@@ -197,6 +212,10 @@ class ModelledWorld final : public SimWorld {
     return solids;
   }
   std::span<const Primitive> movables() const override { return ground_->model.movables; }
+  std::shared_ptr<const FieldModel> field() const override {
+    std::call_once(ground_->hasField, [&] { ground_->field = SimWorld::field(); });
+    return ground_->field;
+  }
 
  private:
   const Building& building() const { return ground_->model.building; }

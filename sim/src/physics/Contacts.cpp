@@ -1,6 +1,9 @@
 #include "Contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "EngineUnits.hpp"
 
 namespace ortung {
 namespace {
@@ -10,7 +13,38 @@ namespace {
 constexpr int kMostWithMoving = 64;
 constexpr int kMostWithGround = 256;
 
+/// Way that bodies may still approach each other in a step without being swept [m].
+constexpr double kSink = 0.0005;
+
 Crowd* crowdOf(b2Body* body) { return reinterpret_cast<Crowd*>(body->GetUserData().pointer); }
+
+float lengthOf(const b2Fixture& fixture) {
+  const b2AABB& box = fixture.GetAABB(0);
+  return (box.upperBound - box.lowerBound).Length();
+}
+
+/// Returns a bound of the velocity at which two bodies that touch approach each other.
+float approachOf(const b2Contact& contact) {
+  const b2Fixture& first = *contact.GetFixtureA();
+  const b2Fixture& second = *contact.GetFixtureB();
+  const b2Body& a = *first.GetBody();
+  const b2Body& b = *second.GetBody();
+  b2WorldManifold manifold;
+  contact.GetWorldManifold(&manifold);
+  const int points = contact.GetManifold()->pointCount;
+  float approach = 0.0f;
+  for (int i = 0; i < points; ++i) {
+    const b2Vec2& point = manifold.points[i];
+    approach =
+        std::max(approach, b2Dot(manifold.normal, a.GetLinearVelocityFromWorldPoint(point) -
+                                                      b.GetLinearVelocityFromWorldPoint(point)));
+  }
+  // Two shapes with corners may turn around the point where they touch, until another one does.
+  if (points == 1 && first.GetType() != b2Shape::e_circle && second.GetType() != b2Shape::e_circle)
+    approach += std::abs(a.GetAngularVelocity() - b.GetAngularVelocity()) *
+                std::min(lengthOf(first), lengthOf(second));
+  return approach;
+}
 
 }  // namespace
 
@@ -55,6 +89,11 @@ void Bouncing::BeginContact(b2Contact* contact) {
       static_cast<float>(a && b ? std::min(*a, *b) : a.value_or(b.value_or(0.0))));
 }
 
+void Bouncing::PostSolve(b2Contact* contact, const b2ContactImpulse* /*impulse*/) {
+  // The engine enables it again in its next step.
+  if (!sweepsAll_ && toMetres(approachOf(*contact)) * dt_ < kSink) contact->SetEnabled(false);
+}
+
 Touching::Touching(const b2Shape& shape, const Heights& heights, const b2Transform& place,
                    const b2Body* self, bool isOneEnough)
     : shape_(shape), heights_(heights), place_(place), self_(self), isOneEnough_(isOneEnough) {}
@@ -78,11 +117,6 @@ bool Touching::lookIn(const b2World& world) {
   shape_.ComputeAABB(&box, place_, 0);
   world.QueryAABB(this, box);
   return !found_.empty();
-}
-
-bool Neighbours::ReportFixture(b2Fixture* fixture) {
-  found_ = fixture->GetBody() != self_;
-  return !found_;
 }
 
 float Barrier::ReportFixture(b2Fixture* fixture, const b2Vec2& /*point*/, const b2Vec2& /*normal*/,

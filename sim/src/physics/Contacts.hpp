@@ -36,10 +36,21 @@ class HeightFilter : public b2ContactFilter {
 };
 
 /// Sets the restitution of a contact: that of the body with a restitution of its own, or the
-/// smaller one.
+/// smaller one. Leaves those out of the sweep in which the solver has ended the approach: there the
+/// sweep finds an impact at once, again and again, and the longer it tries, the deeper is the
+/// overlap of those behind it.
 class Bouncing : public b2ContactListener {
  public:
+  /// @param sweepsAll whether contacts are swept whatever the solver did
+  explicit Bouncing(bool sweepsAll) : sweepsAll_(sweepsAll) {}
+  /// Tells the length of the engine's next step [s].
+  void begin(double dt) { dt_ = dt; }
   void BeginContact(b2Contact* contact) override;
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+
+ private:
+  bool sweepsAll_;
+  double dt_ = 0.0;
 };
 
 /// Finds the bodies that a shape at a place touches.
@@ -61,18 +72,6 @@ class Touching : public b2QueryCallback {
   const b2Body* self_;
   bool isOneEnough_;
   std::vector<b2Body*> found_;
-};
-
-/// Tests whether anything is near a body.
-class Neighbours : public b2QueryCallback {
- public:
-  explicit Neighbours(const b2Body* self) : self_(self) {}
-  bool ReportFixture(b2Fixture* fixture) override;
-  bool isFound() const { return found_; }
-
- private:
-  const b2Body* self_;
-  bool found_ = false;
 };
 
 /// Tests whether anything is between two points, ignoring one body and the new shapes of another

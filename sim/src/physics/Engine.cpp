@@ -18,8 +18,6 @@ constexpr double kFarthestStep = 0.125;
 constexpr int kMostParts = 8;
 /// Tolerated deviation of the engine's single precision from ours [m], [rad].
 constexpr double kDrift = 2e-5;
-constexpr double kRoom = 0.1;    ///< free space around bodies that move without the engine [m]
-constexpr int kPatience = 8;     ///< steps until free space is looked for again
 constexpr float kStill = 1e-4f;  ///< velocities below are the engine's rounding errors
 
 /// Returns @p value moved towards 0 by at most @p step.
@@ -38,6 +36,10 @@ Point2 Physics::Engine::Item::arm(double heading) const {
   const double c = std::cos(heading);
   const double s = std::sin(heading);
   return {c * centre.x - s * centre.y, s * centre.x + c * centre.y};
+}
+
+bool Physics::Engine::Item::goesAsPlanned() const {
+  return properties.floor == Floor::kDrives && !isDisturbed;
 }
 
 /// Accelerates a body to its wanted velocity, as far as its wheels have grip.
@@ -131,60 +133,6 @@ void Physics::Engine::synchronize(Item& item) const {
   if (away > kDrift) transform(item);
 }
 
-/// Returns whether no bodies can touch in this step: all had free space around them, and none has
-/// used up its half of it. Then the engine is not needed.
-bool Physics::Engine::isFlight(double dt) {
-  if (!hasRoom) return false;
-  for (Item& item : items) {
-    if (item.body == nullptr) continue;
-    item.roamed += dt * (toMetres(item.given.Length()) +
-                         std::abs(static_cast<double>(item.givenTurn)) * item.reach);
-    if (item.roamed > kRoom / 2.0) return hasRoom = false;
-  }
-  return isFlying = true;
-}
-
-/// Moves a body by its velocity, without the engine.
-void Physics::Engine::fly(Item& item, double dt) {
-  const Point2 arm = item.arm(item.pose.theta);
-  const double theta = item.pose.theta + static_cast<double>(item.givenTurn) * dt;
-  const Point2 newArm = item.arm(theta);
-  item.pose.x += toMetres(item.given.x) * dt + arm.x - newArm.x;
-  item.pose.y += toMetres(item.given.y) * dt + arm.y - newArm.y;
-  item.pose.theta = wrapAngle(theta);
-}
-
-/// Passes the poses of bodies that moved without the engine to it.
-void Physics::Engine::land() {
-  if (!isFlying) return;
-  isFlying = false;
-  for (Item& item : items) {
-    if (item.body == nullptr) continue;
-    transform(item);
-    item.before = item.body->GetPosition();
-    item.beforeAngle = item.body->GetAngle();
-  }
-}
-
-/// Tests whether all bodies have free space around them.
-void Physics::Engine::lookForRoom() {
-  if (world.GetContactCount() > 0 || --patience > 0) return;
-  for (Item& item : items) {
-    if (item.body == nullptr) continue;
-    item.roamed = 0.0;
-    const float reach = toEngine(item.reach + kRoom);
-    b2AABB box;
-    box.lowerBound = item.body->GetPosition() - b2Vec2(reach, reach);
-    box.upperBound = item.body->GetPosition() + b2Vec2(reach, reach);
-    Neighbours neighbours(item.body);
-    world.QueryAABB(&neighbours, box);
-    if (!neighbours.isFound()) continue;
-    patience = kPatience;
-    return;
-  }
-  hasRoom = true;
-}
-
 /// Returns the number of parts of a step: none is too long, and no body travels too far in one.
 int Physics::Engine::partsOf(double dt) const {
   double fastest = 0.0;
@@ -210,36 +158,49 @@ void Physics::Engine::step(double dt) {
     item.wantedTurn = single(wrapAngle(item.planned.theta - item.pose.theta) / dt);
   }
   const int parts = partsOf(dt);
-  const double part = dt / parts;
-  for (int i = 0; i < parts; ++i) {
+  bool needsEngine = false;
+  for (int i = 0; i < parts; ++i) needsEngine = move(dt / parts, i, parts);
+  for (Item& item : items) {
+    if (item.body == nullptr) continue;
+    if (item.goesAsPlanned()) {
+      item.body->SetLinearVelocity(item.given);
+      item.body->SetAngularVelocity(item.givenTurn);
+      item.pose = item.planned;
+    } else if (!item.isFlying) {
+      follow(item);
+    }
+    item.planned = item.pose;
+    if (!item.isFlying) synchronize(item);
+  }
+  if (likeVersion02 && needsEngine) lookForRoom();
+}
+
+/// Moves everything on by one of some parts of a step. @returns whether that needed the engine
+bool Physics::Engine::move(double dt, int part, int parts) {
+  for (Item& item : items)
+    if (item.body != nullptr) plan(item, dt);
+  const bool needsEngine =
+      likeVersion02 ? parts > 1 || !flyTogether(dt) : chooseFlying(dt, part == 0);
+  if (needsEngine) {
+    if (likeVersion02) land();
     for (Item& item : items)
-      if (item.body != nullptr) plan(item, part);
-    if (parts == 1 && isFlight(part)) break;
-    land();
-    for (Item& item : items)
-      if (item.body != nullptr) launch(item);
+      if (item.body != nullptr && !item.isFlying) launch(item);
     filter.count(world);
-    world.Step(single(part), kVelocityIterations, kPositionIterations);
-    for (Item& item : items)
-      if (item.body != nullptr) end(item);
+    bouncing.begin(dt);
+    stock.forContacts(world);
+    world.Step(single(dt), kVelocityIterations, kPositionIterations);
   }
   for (Item& item : items) {
     if (item.body == nullptr) continue;
-    const bool drives = item.properties.floor == Floor::kDrives;
-    if (isFlying || (drives && !item.isDisturbed)) {
+    if (!item.isFlying) {
+      end(item);
+    } else if (part + 1 < parts || !item.goesAsPlanned()) {
+      fly(item, dt);
       item.body->SetLinearVelocity(item.given);
       item.body->SetAngularVelocity(item.givenTurn);
     }
-    if (drives && !item.isDisturbed)
-      item.pose = item.planned;
-    else if (isFlying)
-      fly(item, dt);
-    else
-      follow(item);
-    item.planned = item.pose;
-    if (!isFlying) synchronize(item);
   }
-  if (!isFlying) lookForRoom();
+  return needsEngine;
 }
 
 /// Returns the velocity of the body's origin.

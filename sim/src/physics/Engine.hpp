@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "BlockStock.hpp"
 #include "Contacts.hpp"
 #include "EngineUnits.hpp"
 #include "Physics.hpp"
@@ -31,7 +32,12 @@ struct Physics::Engine {
     float givenTurn = 0.0f;
     b2Vec2 before{0.0f, 0.0f};  ///< position before the engine's step
     float beforeAngle = 0.0f;
-    double roamed = 0.0;  ///< upper bound of its points' motion since it had free space [m]
+    bool isFlying = false;  ///< whether it moves without the engine
+    bool isNear = false;    ///< whether another moving body may touch it in this step
+    double way = 0.0;       ///< upper bound of its points' motion in this step [m]
+    double room = 0.0;      ///< free space around it when that was looked for last [m]
+    double roamed = 0.0;    ///< upper bound of its points' motion since then [m]
+    int patience = 0;       ///< steps until its free space is looked for again
     bool isDisturbed = false;
     int rest = 0;  ///< remaining changes of shape for which pushing is not tried, since it failed
     b2Body* floor = nullptr;  ///< moves as the wheels turn; is stationary under sliding bodies
@@ -45,15 +51,23 @@ struct Physics::Engine {
     /// Returns the vector from its origin to its centre of mass at this heading, in the field frame
     /// [m].
     Point2 arm(double heading) const;
+    /// Returns whether nothing has kept it from moving as its drive wants.
+    bool goesAsPlanned() const;
+  };
+  /// A circle around a body, and its left end [m].
+  struct Disc {
+    double left = 0.0, x = 0.0, y = 0.0, radius = 0.0;
+    Item* item = nullptr;
   };
 
-  explicit Engine(const PhysicsConfig& config, const Solids& solids);
+  Engine(const PhysicsConfig& config, const Solids& solids, bool isLikeVersion02);
 
   // --- bodies: EngineBodies.cpp
+  b2Body* make(const b2BodyDef& definition);
   void attach(b2Body* body, std::span<const Primitive> pieces,
-              std::vector<std::unique_ptr<Heights>>& kept, const Point2& origin = {}) const;
+              std::vector<std::unique_ptr<Heights>>& kept, const Point2& origin = {});
   void attach(b2Body* body, const b2Shape& shape, Heights& range,
-              const std::optional<double>& friction = {}) const;
+              const std::optional<double>& friction = {});
   void addSolids(const Solids& solids);
   void addFence(const Box2& bounds);
   b2Body* groundAt(const Point2& place, Point2& origin);
@@ -73,6 +87,7 @@ struct Physics::Engine {
 
   // --- a step: Engine.cpp
   void step(double dt);
+  bool move(double dt, int part, int parts);
   int partsOf(double dt) const;
   void drive(Item& item, double dt) const;
   void brake(Item& item, double dt) const;
@@ -80,17 +95,26 @@ struct Physics::Engine {
   void launch(Item& item) const;
   void end(Item& item) const;
   static void follow(Item& item);
-  static void fly(Item& item, double dt);
   void synchronize(Item& item) const;
-  bool isFlight(double dt);
+  Twist velocityOf(const Item& item) const;
+
+  // --- bodies that nothing is near: EngineFlight.cpp
+  static void fly(Item& item, double dt);
+  bool chooseFlying(double dt, bool isFirst);
+  void findNear(double distance);
+  bool hasRoom(Item& item, double distance);
+  static void takeOff(Item& item);
+  static void setEnabled(Item& item, bool isEnabled);
+  void land(Item& item);
   void land();
+  Point2 placeOf(const Item& item) const;
+  bool flyTogether(double dt);
   void lookForRoom();
   /// Resets the free-space test after something was changed from outside.
   void wake() {
     land();
-    hasRoom = false;
+    canAllFly = false;
   }
-  Twist velocityOf(const Item& item) const;
 
   b2Vec2 positionOf(const Pose2& pose) const {
     return toEngine({pose.x - middle.x, pose.y - middle.y});
@@ -103,15 +127,17 @@ struct Physics::Engine {
   Point2 middle;  ///< middle of the field, where the engine has its origin [m]
   HeightFilter filter;
   Bouncing bouncing;
+  BlockStock stock;  ///< memory of what is in the world
   b2World world;
   b2Body* ground = nullptr;
   std::map<std::pair<int, int>, b2Body*> tiles;  ///< parts of the ground, with origins of their own
   Heights fence;
   std::vector<std::unique_ptr<Heights>> fixedHeights;  ///< heights of the fixed shapes
   std::vector<Item> items;
-  bool hasRoom = false;
-  bool isFlying = false;  ///< whether bodies have moved without the engine
-  int patience = 0;       ///< steps until free space is looked for again
+  bool likeVersion02;         ///< whether all bodies fly, or none, and all that touch are swept
+  bool canAllFly = false;     ///< whether all had free space around them
+  int patience = 0;           ///< steps until free space is looked for again
+  std::vector<Disc> inOrder;  ///< all bodies, from left to right
 };
 
 }  // namespace ortung

@@ -17,20 +17,28 @@ Point2 middleOf(const Box2& box) {
 
 }  // namespace
 
-Physics::Engine::Engine(const PhysicsConfig& c, const Solids& solids)
-    : config(c), middle(middleOf(solids.bounds)), world({0.0f, 0.0f}) {
+Physics::Engine::Engine(const PhysicsConfig& c, const Solids& solids, bool isLikeVersion02)
+    : config(c),
+      middle(middleOf(solids.bounds)),
+      bouncing(isLikeVersion02),
+      world({0.0f, 0.0f}),
+      likeVersion02(isLikeVersion02) {
   world.SetContactFilter(&filter);
   world.SetContactListener(&bouncing);
   world.SetAllowSleeping(false);
   b2BodyDef definition;
-  ground = world.CreateBody(&definition);
+  ground = make(definition);
   addSolids(solids);
   addFence(solids.bounds);
 }
 
+b2Body* Physics::Engine::make(const b2BodyDef& definition) {
+  stock.forBody(world);
+  return world.CreateBody(&definition);
+}
+
 void Physics::Engine::attach(b2Body* body, std::span<const Primitive> pieces,
-                             std::vector<std::unique_ptr<Heights>>& kept,
-                             const Point2& origin) const {
+                             std::vector<std::unique_ptr<Heights>>& kept, const Point2& origin) {
   for (const Primitive& piece : pieces) {
     kept.push_back(std::make_unique<Heights>(Heights{piece.zLow, piece.zHigh, piece.restitution}));
     for (const auto& shape : boxShapesOf(piece, origin))
@@ -39,13 +47,14 @@ void Physics::Engine::attach(b2Body* body, std::span<const Primitive> pieces,
 }
 
 void Physics::Engine::attach(b2Body* body, const b2Shape& shape, Heights& range,
-                             const std::optional<double>& friction) const {
+                             const std::optional<double>& friction) {
   b2FixtureDef definition;
   definition.shape = &shape;
   definition.friction = single(friction.value_or(config.friction));
   definition.restitution = single(config.restitution);
   definition.restitutionThreshold = 0.0f;  // Newton's hypothesis holds at every speed
   definition.userData.pointer = reinterpret_cast<uintptr_t>(&range);
+  stock.forFixture(world, shape);
   body->CreateFixture(&definition);
 }
 
@@ -59,7 +68,7 @@ b2Body* Physics::Engine::groundAt(const Point2& place, Point2& origin) {
   if (body == nullptr) {
     b2BodyDef definition;
     definition.position = positionOf({origin.x, origin.y, 0.0});
-    body = world.CreateBody(&definition);
+    body = make(definition);
   }
   return body;
 }
@@ -126,6 +135,7 @@ void Physics::Engine::holdOn(Item& item) {
     // Friction that is uniform over a disc of radius r has a torque of 2/3 mu m g r.
     joint.maxTorque = single(kScale * kScale * force * 2.0 / 3.0 * item.reach);
   }
+  stock.forJoint(world);
   item.grip = static_cast<b2FrictionJoint*>(world.CreateJoint(&joint));
 }
 
@@ -138,13 +148,13 @@ void Physics::Engine::create(Item& item, std::span<const Primitive> pieces) {
   definition.bullet = true;  // does not tunnel through other moving bodies between two steps
   definition.allowSleep = false;
   definition.userData.pointer = reinterpret_cast<uintptr_t>(item.crowd.get());
-  item.body = world.CreateBody(&definition);
+  item.body = make(definition);
   item.floor = ground;
   if (item.properties.floor == Floor::kDrives) {
     b2BodyDef floor;
     floor.type = b2_kinematicBody;
     floor.allowSleep = false;
-    item.floor = world.CreateBody(&floor);
+    item.floor = make(floor);
   }
   attach(item.body, pieces, item.heights);
   weigh(item, pieces);

@@ -9,8 +9,8 @@
 
 namespace ortung {
 
-Physics::Physics(const PhysicsConfig& config, const Solids& solids)
-    : engine_(std::make_unique<Engine>(config, solids)) {}
+Physics::Physics(const PhysicsConfig& config, const Solids& solids, bool likeVersion02)
+    : engine_(std::make_unique<Engine>(config, solids, likeVersion02)) {}
 
 Physics::~Physics() = default;
 

@@ -28,7 +28,8 @@ class Physics {
   };
   using Body = std::size_t;
 
-  Physics(const PhysicsConfig& config, const Solids& solids);
+  /// @param likeVersion02 whether bodies move as they did in version 0.2, bit for bit: slower
+  Physics(const PhysicsConfig& config, const Solids& solids, bool likeVersion02 = false);
   ~Physics();
   Physics(const Physics&) = delete;
   Physics& operator=(const Physics&) = delete;

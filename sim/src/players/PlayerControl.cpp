@@ -50,7 +50,7 @@ struct PlayerControl::Parts {
   PluginFactory& factory;
   Config config;
   SimStage stage;
-  FieldModel field;
+  std::shared_ptr<const FieldModel> field;
   std::vector<std::unique_ptr<Seating>> seatings;
   std::map<std::string, std::string, std::less<>> teams;  ///< teams by robot
   /// Messages for robots without a player.
@@ -68,7 +68,7 @@ struct PlayerControl::Parts {
         factory(f),
         config(c),
         stage(s, p, [this](std::string_view robot) { return teamOf(robot); }),
-        field(fieldModelOf(s.world())) {}
+        field(s.world().field()) {}
 
   std::string teamOf(std::string_view robot) const {
     const auto found = teams.find(robot);
@@ -116,7 +116,7 @@ void PlayerControl::Parts::sit(SimRobot& robot, std::unique_ptr<Player> player,
   seating->plugin = wish.plugin;
   seating->guard = std::make_unique<PlayerGuard>(wish.plugin, name, config.budget);
   seating->seat = std::make_unique<SimSeat>(
-      robot, wish.team, field, wish.seesStage ? &stage : nullptr, std::move(region), random,
+      robot, wish.team, *field, wish.seesStage ? &stage : nullptr, std::move(region), random,
       [this, name](std::string_view text) { say(name, text); });
   seating->player = std::move(player);
   seating->since = simulation.now();

@@ -10,9 +10,8 @@ constexpr std::size_t kMostHeard = 1000;
 
 RobotAbilities abilitiesOf(const SimRobot& robot) {
   RobotAbilities abilities;
-  const RobotSize size = sizeOf(robot.config());
-  abilities.radius = size.radius;
-  abilities.height = size.height;
+  abilities.radius = robot.config().radius;
+  abilities.height = robot.shape().top();
   abilities.limits = robot.drive().limits();
   abilities.motionKind = robot.drive().kind();
   abilities.motionHelp = robot.drive().commandHelp();

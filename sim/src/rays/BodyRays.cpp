@@ -154,12 +154,14 @@ void BodyRays::castAt(const Piece& piece, const RayFan& fan, const FanTurn& turn
   const double farthest = fan.maxRange + piece.reach;
   const double square = dx * dx + dy * dy;
   if (square > farthest * farthest) return;
+  // Beams that end before it can't hit it.
+  const auto nearest = static_cast<float>(std::sqrt(square) - piece.reach - 1e-6);
   const auto castBeams = [&](std::size_t from, std::size_t to) {
     const double angle = fan.firstAngle + static_cast<double>(from) * fan.angleStep;
     Ray ray{fan.x,    fan.y, fan.z, turn.level * std::cos(angle), turn.level * std::sin(angle),
             turn.rise};
     for (std::size_t i = from; i < to; ++i) {
-      const auto t = hit(piece, ray);
+      const auto t = ranges[i] < nearest ? std::nullopt : hit(piece, ray);
       if (t && *t < static_cast<double>(ranges[i])) ranges[i] = static_cast<float>(*t);
       const double turned = ray.dx * turn.cos - ray.dy * turn.sin;
       ray.dy = ray.dy * turn.cos + ray.dx * turn.sin;

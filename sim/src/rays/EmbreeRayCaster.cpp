@@ -1,34 +1,15 @@
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
+#include "Embree.hpp"
 #include "RayCaster.hpp"
 #include "RoundGeometry.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr unsigned kPacket = 16;
-
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, Release>;
-using Scene = std::unique_ptr<RTCSceneTy, Release>;
-using Geometry = std::unique_ptr<RTCGeometryTy, Release>;
-
-RTCIntersectContext makeContext() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
+using embree::kPacket;
 
 FloatRay rayOf(RTCRayN* ray, unsigned n, unsigned i) {
   return {{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
@@ -63,36 +44,15 @@ void occludeRound(const RTCOccludedFunctionNArguments* args) {
       RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
-template <class Items>
-void fill(const Geometry& geometry, RTCBufferType type, RTCFormat format, const Items& items) {
-  void* memory =
-      rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, sizeof(items[0]), items.size());
-  if (memory == nullptr) throw std::runtime_error("Embree: no memory for the world's geometry");
-  std::copy(items.begin(), items.end(), static_cast<typename Items::value_type*>(memory));
-}
-
-void attach(RTCScene scene, const Geometry& geometry) {
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene, geometry.get());
-}
-
-void attachTriangles(RTCDevice device, RTCScene scene, const Triangles& triangles) {
-  if (triangles.corners.empty()) return;
-  const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  fill(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, triangles.vertices);
-  fill(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.corners);
-  attach(scene, geometry);
-}
-
-void attachRound(RTCDevice device, RTCScene scene, RoundGeometry& round) {
+void attachRound(const embree::Device& device, const embree::Scene& scene, RoundGeometry& round) {
   if (round.size() == 0) return;
-  const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+  const embree::Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(round.size()));
   rtcSetGeometryUserData(geometry.get(), &round);
   rtcSetGeometryBoundsFunction(geometry.get(), boundRound, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), intersectRound);
   rtcSetGeometryOccludedFunction(geometry.get(), occludeRound);
-  attach(scene, geometry);
+  embree::attach(scene, geometry);
 }
 
 /// Cosines and sines of 0, step, 2 step, ... by recursion; the error stays at some 1e-15.
@@ -137,24 +97,13 @@ void moveToSurfaces(const std::vector<Mesh::Depth>& depths, double maxRange, std
 }  // namespace
 
 struct RayCaster::Scenes {
-  Device device;
+  embree::Device device = embree::makeDevice();
   Point2 middle;
   RoundGeometry round;
-  Scene upright;  ///< what horizontal rays can meet
-  Scene caps;     ///< horizontal surfaces; null if there are none
+  embree::Scene upright;  ///< what horizontal rays can meet
+  embree::Scene caps;     ///< horizontal surfaces; null if there are none
   std::vector<Mesh::Depth> depths;
 
-  Scene makeScene() const {
-    Scene scene(rtcNewScene(device.get()));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);  // no ray slips through between triangles
-    return scene;
-  }
-  void commit(const Scene& scene) const {
-    rtcCommitScene(scene.get());
-    const RTCError error = rtcGetDeviceError(device.get());
-    if (error != RTC_ERROR_NONE)
-      throw std::runtime_error("Embree cannot build the world, error " + std::to_string(error));
-  }
   /// Returns the scenes that a ray can meet.
   std::array<RTCScene, 2> scenesFor(bool isLevel) const {
     return {upright.get(), isLevel ? nullptr : caps.get()};
@@ -162,20 +111,18 @@ struct RayCaster::Scenes {
 };
 
 RayCaster::RayCaster(const Mesh& mesh) : scenes_(std::make_unique<Scenes>()) {
-  // One thread: worlds are built in milliseconds, and no thread pool is left behind.
-  scenes_->device.reset(rtcNewDevice("threads=1"));
-  if (!scenes_->device) throw std::runtime_error("Embree cannot be started");
   scenes_->middle = mesh.middle;
   scenes_->depths = mesh.depths;
   scenes_->round = RoundGeometry(mesh.round, mesh.middle);
-  scenes_->upright = scenes_->makeScene();
-  attachTriangles(scenes_->device.get(), scenes_->upright.get(), mesh.walls);
-  attachRound(scenes_->device.get(), scenes_->upright.get(), scenes_->round);
-  scenes_->commit(scenes_->upright);
+  const embree::Device& device = scenes_->device;
+  scenes_->upright = embree::makeScene(device);
+  embree::attachTriangles(device, scenes_->upright, mesh.walls.vertices, mesh.walls.corners);
+  attachRound(device, scenes_->upright, scenes_->round);
+  embree::commit(device, scenes_->upright);
   if (mesh.caps.corners.empty()) return;
-  scenes_->caps = scenes_->makeScene();
-  attachTriangles(scenes_->device.get(), scenes_->caps.get(), mesh.caps);
-  scenes_->commit(scenes_->caps);
+  scenes_->caps = embree::makeScene(device);
+  embree::attachTriangles(device, scenes_->caps, mesh.caps.vertices, mesh.caps.corners);
+  embree::commit(device, scenes_->caps);
 }
 
 RayCaster::~RayCaster() = default;
@@ -184,7 +131,7 @@ void RayCaster::castFan(const RayFan& fan, std::span<float> ranges) const {
   const auto scenes = scenes_->scenesFor(fan.elevation == 0.0);
   const double level = std::cos(fan.elevation);
   const Turns turns(fan.angleStep);  // the same within all packets
-  RTCIntersectContext context = makeContext();
+  RTCIntersectContext context = embree::makeContext();
   alignas(64) std::array<int, kPacket> valid;
   alignas(64) RTCRayHit16 packet;
   for (unsigned i = 0; i < kPacket; ++i) {
@@ -231,7 +178,7 @@ bool RayCaster::isBlocked(const std::array<double, 3>& from, const std::array<do
   ray.dir_z = static_cast<float>(direction[2]);
   ray.tfar = static_cast<float>(stop);
   ray.mask = ~0u;
-  RTCIntersectContext context = makeContext();
+  RTCIntersectContext context = embree::makeContext();
   for (const RTCScene scene : scenes_->scenesFor(direction[2] == 0.0)) {
     if (scene != nullptr) rtcOccluded1(scene, &context, &ray);
     if (ray.tfar < 0.0f) return true;  // Embree reports a hit by -infinity

@@ -37,6 +37,13 @@ class FaceView {
     return true;
   }
 
+  /// Returns a direction of the face's frame in the field frame.
+  std::array<double, 3> direction(double x, double y, double z) const {
+    return {toFace_[0] * x + toFace_[3] * y + toFace_[6] * z,
+            toFace_[1] * x + toFace_[4] * y + toFace_[7] * z,
+            toFace_[2] * x + toFace_[5] * y + toFace_[8] * z};
+  }
+
   /// Returns the projection matrix for OpenGL, column by column. The first row of pixels is the top
   /// one.
   std::array<float, 16> toClip(const SheetFace& face, double near, double far) const {

@@ -20,31 +20,44 @@ GLuint arrayOf(const GlFunctions& gl, const void* data, std::size_t bytes) {
   return array;
 }
 
-/// Returns the triangles of the field and of the floor around it, without overlaps.
+/// Returns the triangles of the floor around the field without overlaps, and of the horizon around
+/// that.
 std::vector<std::array<float, 3>> floorOf(const Box2& field) {
   std::vector<std::array<float, 3>> vertices;
-  const auto rectangle = [&](double x0, double x1, double y0, double y1, float isField) {
-    const auto corner = [&](double x, double y) {
-      vertices.push_back({static_cast<float>(x), static_cast<float>(y), isField});
-    };
-    corner(x0, y0), corner(x1, y0), corner(x1, y1);
-    corner(x0, y0), corner(x1, y1), corner(x0, y1);
+  using Corner = std::array<double, 3>;
+  const auto quad = [&](const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+    for (const Corner& corner : {a, b, c, a, c, d})
+      vertices.push_back({static_cast<float>(corner[0]), static_cast<float>(corner[1]),
+                          static_cast<float>(corner[2])});
+  };
+  const auto rectangle = [&](double x0, double x1, double y0, double y1) {
+    quad({x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0});
   };
   const Box2& f = field;
-  rectangle(f.xLow, f.xHigh, f.yLow, f.yHigh, 1.0F);
-  rectangle(f.xLow - kBeyond, f.xLow, f.yLow, f.yHigh, 0.0F);
-  rectangle(f.xHigh, f.xHigh + kBeyond, f.yLow, f.yHigh, 0.0F);
-  rectangle(f.xLow - kBeyond, f.xHigh + kBeyond, f.yLow - kBeyond, f.yLow, 0.0F);
-  rectangle(f.xLow - kBeyond, f.xHigh + kBeyond, f.yHigh, f.yHigh + kBeyond, 0.0F);
+  const Box2 all{f.xLow - kBeyond, f.xHigh + kBeyond, f.yLow - kBeyond, f.yHigh + kBeyond};
+  rectangle(all.xLow, f.xLow, f.yLow, f.yHigh);
+  rectangle(f.xHigh, all.xHigh, f.yLow, f.yHigh);
+  rectangle(all.xLow, all.xHigh, all.yLow, f.yLow);
+  rectangle(all.xLow, all.xHigh, f.yHigh, all.yHigh);
+  const auto wall = [&](double x0, double y0, double x1, double y1) {
+    quad({x0, y0, 0}, {x1, y1, 0}, {x1, y1, kBeyond}, {x0, y0, kBeyond});
+  };
+  wall(all.xLow, all.yLow, all.xHigh, all.yLow);
+  wall(all.xHigh, all.yLow, all.xHigh, all.yHigh);
+  wall(all.xHigh, all.yHigh, all.xLow, all.yHigh);
+  wall(all.xLow, all.yHigh, all.xLow, all.yLow);
+  quad({all.xLow, all.yLow, kBeyond}, {all.xHigh, all.yLow, kBeyond},
+       {all.xHigh, all.yHigh, kBeyond}, {all.xLow, all.yHigh, kBeyond});
   return vertices;
 }
+
+constexpr GLsizei kQuad = 6;  ///< vertices of a rectangle
 
 }  // namespace
 
 FloorPainter::FloorPainter(const GlFunctions& gl, const StandingScene& scene)
     : gl_(gl), scene_(scene) {
   const auto floor = floorOf(scene.field);
-  floorVertices_ = static_cast<GLsizei>(floor.size());
   floor_ = arrayOf(gl_, floor.data(), floor.size() * sizeof floor[0]);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, at(0));
   gl_.EnableVertexAttribArray(0);
@@ -60,10 +73,13 @@ FloorPainter::FloorPainter(const GlFunctions& gl, const StandingScene& scene)
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
 }
 
-void FloorPainter::paintFloor() const {
+void FloorPainter::paint(GLint first, GLsizei count) const {
   gl_.BindVertexArray(floor_);
-  gl_.DrawArrays(GL_TRIANGLES, 0, floorVertices_);
+  gl_.DrawArrays(GL_TRIANGLES, first * kQuad, count * kQuad);
 }
+
+void FloorPainter::paintGround() const { paint(0, 4); }
+void FloorPainter::paintHorizon() const { paint(4, 5); }
 
 void FloorPainter::paintLines(const FaceView& face, const std::array<double, 3>& camera) {
   const double x = scene_.middle.x - camera[0];

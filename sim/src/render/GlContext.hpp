@@ -13,7 +13,7 @@ namespace ortung {
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
   X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
-  X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)             \
   X(PFNGLBUFFERDATAPROC, BufferData)                           \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
   X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
@@ -21,13 +21,11 @@ namespace ortung {
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
   X(PFNGLCREATESHADERPROC, CreateShader)                       \
   X(PFNGLCULLFACEPROC, CullFace)                               \
-  X(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
   X(PFNGLDEPTHMASKPROC, DepthMask)                             \
   X(PFNGLDISABLEPROC, Disable)                                 \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
-  X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
-  X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                         \
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
+  X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)     \
   X(PFNGLENABLEPROC, Enable)                                   \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
@@ -51,7 +49,6 @@ namespace ortung {
   X(PFNGLSCISSORPROC, Scissor)                                 \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
-  X(PFNGLUNIFORM1UIPROC, Uniform1ui)                           \
   X(PFNGLUNIFORM3FVPROC, Uniform3fv)                           \
   X(PFNGLUNIFORM4FPROC, Uniform4f)                             \
   X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \

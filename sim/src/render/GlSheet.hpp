@@ -5,7 +5,7 @@
 
 namespace ortung {
 
-/// The buffers into which OpenGL draws: colours, or things and ranges, and depths.
+/// The buffers into which OpenGL draws: colours and depths.
 /// @pre its context is current, whenever it is used
 class GlSheet {
  public:
@@ -13,18 +13,16 @@ class GlSheet {
 
   /// Enlarges the buffers to at least this size. @throws std::runtime_error if there is no memory
   void resize(int width, int height);
-  void beginColours(const Rgb& background);
-  void readColours(int width, int height, std::uint32_t* out);
-  void beginThings();
-  void readThings(int width, int height, const Sheet& sheet);
+  /// Fills the sheet with the floor's colour.
+  void begin(const Rgb& floor);
+  void read(int width, int height, std::uint32_t* out);
 
  private:
-  enum Buffer { kColours, kThings, kRanges, kDepths, kBuffers };
+  enum Buffer { kColours, kDepths, kBuffers };
 
   const GlFunctions& gl_;
   GLuint buffers_[kBuffers] = {};
-  GLuint forColours_ = 0;
-  GLuint forThings_ = 0;
+  GLuint frame_ = 0;
   int width_ = 0;
   int height_ = 0;
 };

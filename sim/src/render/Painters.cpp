@@ -14,10 +14,9 @@ void check(const Drawing& drawing, const Sheet& sheet) {
                                 " pixels, expected 1 to 8192 to a side");
   const auto size =
       static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
-  for (const std::size_t has : {sheet.colours.size(), sheet.things.size(), sheet.ranges.size()})
-    if (has != 0 && has != size)
-      throw std::invalid_argument("a sheet of " + std::to_string(has) + " pixels, expected " +
-                                  std::to_string(size));
+  if (sheet.colours.size() != size)
+    throw std::invalid_argument("a sheet of " + std::to_string(sheet.colours.size()) +
+                                " pixels, expected " + std::to_string(size));
 }
 
 }  // namespace

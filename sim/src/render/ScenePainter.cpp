@@ -1,5 +1,6 @@
 #include "ScenePainter.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,33 +11,57 @@
 #include "GlSheet.hpp"
 #include "Shaders.hpp"
 #include "SolidPainter.hpp"
+#include "TurfPattern.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr double kNear = 0.03;   ///< distance of the near plane [m]
-constexpr double kFar = 4000.0;  ///< distance of the far plane [m]
+constexpr double kNear = 0.03;    ///< distance of the near plane [m]
+constexpr double kFar = 20000.0;  ///< distance of the far plane [m]
 
-/// A program for the floor, for lines or for solids, with the locations of their common uniforms.
+/// Directions whose slope is at least this meet the floor where it is drawn.
+constexpr double kSurelyFloor = 0.01;
+
+/// A program for the floor, for lines or for solids, with the locations of their uniforms.
 struct Program : GlProgram {
-  Program(const GlFunctions& gl, const char* definitions, const char* vertex, const char* fragment)
+  Program(const GlFunctions& gl, const std::string& definitions, const char* vertex,
+          const char* fragment)
       : GlProgram(gl, definitions, {shaders::kHead, vertex}, {shaders::kHead, fragment}) {}
   GLint toClip = find("toClip");
   GLint origin = find("origin");
   GLint pixel = find("pixel");
+  GLint paint = find("paint");
+  GLint isSheet = find("isSheet");
 };
 
-/// The three programs of one mode of drawing.
-struct Programs {
-  Programs(const GlFunctions& gl, const char* definitions)
-      : floor(gl, definitions, shaders::kFloorVertex, shaders::kFloorFragment),
-        lines(gl, definitions, shaders::kLineVertex, shaders::kLineFragment),
-        solids(gl, definitions, shaders::kSolidVertex, shaders::kSolidFragment) {}
-  Program floor, lines, solids;
+Rgb lit(const Rgb& colour, const Lighting& light) {
+  return {colour[0] * light.colour[0], colour[1] * light.colour[1], colour[2] * light.colour[2]};
+}
+
+/// What a face may show besides the field.
+struct Beyond {
+  bool ground = false;   ///< whether it may show the floor around the field
+  bool horizon = false;  ///< whether it may show anything but floor
 };
 
-bool hasPattern(const Lighting& light) {
-  return light.grain != 0.0F || light.patches != 0.0F || light.stripes != 0.0F;
+Beyond beyondIn(const Drawing& drawing, const SheetFace& face, const FaceView& view,
+                const StandingScene& scene) {
+  Beyond beyond;
+  const std::array<double, 3>& at = drawing.camera.position;
+  const Box2& field = scene.field;
+  // A view is convex, and so is the field: what holds for the corners holds in between.
+  for (const auto& [u, v] : {std::pair{face.left, face.top},
+                             {face.right, face.top},
+                             {face.left, face.bottom},
+                             {face.right, face.bottom}}) {
+    const auto [x, y, z] = view.direction(u, v, 1.0);
+    if (!(at[2] > 0.0) || !(z < -kSurelyFloor * std::hypot(x, y, z))) return {true, true};
+    const double px = at[0] - scene.middle.x - x * at[2] / z;
+    const double py = at[1] - scene.middle.y - y * at[2] / z;
+    beyond.ground =
+        beyond.ground || px < field.xLow || px > field.xHigh || py < field.yLow || py > field.yHigh;
+  }
+  return beyond;
 }
 
 }  // namespace
@@ -48,27 +73,28 @@ struct ScenePainter::Parts {
     sheet = std::make_unique<GlSheet>(gl);
     floor = std::make_unique<FloorPainter>(gl, scene);
     solids = std::make_unique<SolidPainter>(gl, scene);
-    plain = std::make_unique<Programs>(gl, "");
-    gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    const auto program = [&](const char* vertex, const char* fragment) {
+      return std::make_unique<Program>(gl, "", vertex, fragment);
+    };
+    ground = program(shaders::kFloorVertex, shaders::kFloorFragment);
+    lines = program(shaders::kLineVertex, shaders::kLineFragment);
+    bodies = program(shaders::kSolidVertex, shaders::kSolidFragment);
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl.Enable(GL_SCISSOR_TEST);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.FrontFace(GL_CW);  // rows go downwards, so everything is mirrored
   }
 
-  /// Programs are compiled when they are first needed.
-  const Programs& programs(const Lighting& light, bool annotates) {
-    std::unique_ptr<Programs>& wanted = annotates ? annotating : hasPattern(light) ? varied : plain;
-    if (!wanted)
-      wanted =
-          std::make_unique<Programs>(gl, annotates ? "#define ANNOTATE\n" : "#define VARIED\n");
-    return *wanted;
+  Rgb fieldColour(const Lighting& light) const {
+    return lit(scene.isPitch ? light.turf : light.ground, light);
   }
 
-  void tell(const Drawing& drawing, const Programs& programs) const;
-  void paint(const Drawing& drawing, const Programs& programs, bool annotates);
-  void paintFloor(const Programs& programs, std::size_t face, float pixel, bool annotates,
-                  const std::array<float, 16>& toClip, const std::array<double, 3>& camera);
+  void tell(const Drawing& drawing) const;
+  void paint(const Drawing& drawing);
+  void paintFloor(const Drawing& drawing, std::size_t face, const std::array<float, 16>& toClip);
+  void paintLines(const Drawing& drawing, std::size_t face, const std::array<float, 16>& toClip);
+  void paintSolids(const Drawing& drawing, std::size_t face, const std::array<float, 16>& toClip);
 
   const StandingScene& scene;
   std::unique_ptr<GlContext> context;
@@ -76,82 +102,91 @@ struct ScenePainter::Parts {
   std::unique_ptr<GlSheet> sheet;
   std::unique_ptr<FloorPainter> floor;
   std::unique_ptr<SolidPainter> solids;
-  std::unique_ptr<Programs> plain, varied, annotating;
+  std::unique_ptr<Program> ground, lines, bodies;
   std::vector<FaceView> faces;
 };
 
 /// Sets the uniforms that are the same for all faces.
-void ScenePainter::Parts::tell(const Drawing& drawing, const Programs& programs) const {
+void ScenePainter::Parts::tell(const Drawing& drawing) const {
   const Lighting& light = drawing.lighting;
   const std::array<double, 3>& camera = drawing.camera.position;
   const std::array<float, 3> origin{static_cast<float>(scene.middle.x - camera[0]),
                                     static_cast<float>(scene.middle.y - camera[1]),
                                     static_cast<float>(-camera[2])};
-  for (const Program* program : {&programs.floor, &programs.lines, &programs.solids}) {
+  for (const Program* program :
+       std::initializer_list<const Program*>{ground.get(), lines.get(), bodies.get()}) {
     program->use();
     gl.Uniform3fv(program->find("light"), 1, light.towardsLight.data());
     gl.Uniform1f(program->find("ambient"), light.ambient);
     gl.Uniform3fv(program->find("lightColour"), 1, light.colour.data());
     gl.Uniform3fv(program->origin, 1, origin.data());
   }
-  const Program& floorIs = programs.floor;
-  floorIs.use();
-  const Rgb& field = scene.isPitch ? light.turf : light.ground;
-  gl.Uniform3fv(floorIs.find("turf"), 1, field.data());
-  gl.Uniform3fv(floorIs.find("ground"), 1, light.ground.data());
-  const std::array<float, 3> at{static_cast<float>(camera[0]), static_cast<float>(camera[1]),
-                                static_cast<float>(camera[2])};
-  gl.Uniform3fv(floorIs.find("camera"), 1, at.data());
-  gl.Uniform1f(floorIs.find("grain"), light.grain);
-  gl.Uniform1f(floorIs.find("patches"), light.patches);
-  gl.Uniform4f(floorIs.find("stripes"), light.stripes, light.stripeWidth,
-               -std::sin(light.stripeAngle), std::cos(light.stripeAngle));
-  gl.Uniform1ui(floorIs.find("seed"), light.seed);
 }
 
-/// Draws the floor and its lines. The floor hides nothing and lines lie on it, so no depth test is
-/// needed.
-void ScenePainter::Parts::paintFloor(const Programs& programs, std::size_t face, float pixel,
-                                     bool annotates, const std::array<float, 16>& toClip,
-                                     const std::array<double, 3>& camera) {
-  gl.DepthFunc(GL_ALWAYS);
-  gl.Disable(GL_CULL_FACE);
-  programs.floor.use();
-  gl.UniformMatrix4fv(programs.floor.toClip, 1, GL_FALSE, toClip.data());
-  floor->paintFloor();
-  gl.DepthMask(GL_FALSE);
-  if (!annotates) gl.Enable(GL_BLEND);
-  programs.lines.use();
-  gl.UniformMatrix4fv(programs.lines.toClip, 1, GL_FALSE, toClip.data());
-  gl.Uniform1f(programs.lines.pixel, pixel);
-  floor->paintLines(faces[face], camera);
+/// Draws what is around the field: the field itself has been drawn by clearing the sheet with its
+/// colour. It hides nothing, so no depths are needed.
+void ScenePainter::Parts::paintFloor(const Drawing& drawing, std::size_t face,
+                                     const std::array<float, 16>& toClip) {
+  const Lighting& light = drawing.lighting;
+  const Beyond beyond = beyondIn(drawing, drawing.faces[face], faces[face], scene);
+  ground->use();
+  gl.UniformMatrix4fv(ground->toClip, 1, GL_FALSE, toClip.data());
+  const auto dip = [&](const Rgb& colour, float isFloor) {
+    gl.Uniform4f(ground->paint, colour[0], colour[1], colour[2], 1.0F - isFloor);
+  };
+  if (beyond.ground && scene.isPitch) {
+    dip(lit(light.ground, light), 1.0F);
+    floor->paintGround();
+  }
+  if (beyond.horizon) {
+    dip(light.background, 0.0F);
+    floor->paintHorizon();
+  }
+}
+
+void ScenePainter::Parts::paintLines(const Drawing& drawing, std::size_t face,
+                                     const std::array<float, 16>& toClip) {
+  const SheetFace& on = drawing.faces[face];
+  const double pixel = std::max((on.right - on.left) / on.width, (on.bottom - on.top) / on.height);
+  lines->use();
+  gl.UniformMatrix4fv(lines->toClip, 1, GL_FALSE, toClip.data());
+  gl.Uniform1f(lines->pixel, static_cast<float>(pixel));
+  gl.Enable(GL_BLEND);
+  floor->paintLines(faces[face], drawing.camera.position);
   gl.Disable(GL_BLEND);
-  gl.DepthMask(GL_TRUE);
-  gl.DepthFunc(GL_LESS);
 }
 
-void ScenePainter::Parts::paint(const Drawing& drawing, const Programs& programs, bool annotates) {
-  tell(drawing, programs);
-  const std::array<double, 3>& camera = drawing.camera.position;
+void ScenePainter::Parts::paintSolids(const Drawing& drawing, std::size_t face,
+                                      const std::array<float, 16>& toClip) {
+  bodies->use();
+  gl.UniformMatrix4fv(bodies->toClip, 1, GL_FALSE, toClip.data());
+  gl.Uniform1f(bodies->isSheet, 1.0F);
+  solids->paintWalls(faces[face], drawing.camera.position);
+  gl.Uniform1f(bodies->isSheet, 0.0F);
+  gl.Enable(GL_CULL_FACE);
+  solids->paintBodies(face);
+  gl.Enable(GL_BLEND);
+  gl.DepthMask(GL_FALSE);
+  solids->paintNets(face);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_CULL_FACE);
+}
+
+void ScenePainter::Parts::paint(const Drawing& drawing) {
+  gl.Scissor(0, 0, drawing.width, drawing.height);
+  sheet->begin(fieldColour(drawing.lighting));
+  tell(drawing);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const SheetFace& face = drawing.faces[i];
     gl.Viewport(face.column, face.row, face.width, face.height);
     gl.Scissor(face.column, face.row, face.width, face.height);
     const std::array<float, 16> toClip = faces[i].toClip(face, kNear, kFar);
-    const double pixel =
-        std::max((face.right - face.left) / face.width, (face.bottom - face.top) / face.height);
-    paintFloor(programs, i, static_cast<float>(pixel), annotates, toClip, camera);
-    programs.solids.use();
-    gl.UniformMatrix4fv(programs.solids.toClip, 1, GL_FALSE, toClip.data());
-    solids->paintWalls(faces[i], camera);
-    gl.Enable(GL_CULL_FACE);
-    solids->paintBodies(i);
-    if (annotates) continue;
-    gl.Enable(GL_BLEND);
-    gl.DepthMask(GL_FALSE);
-    solids->paintNets(i);
-    gl.DepthMask(GL_TRUE);
-    gl.Disable(GL_BLEND);
+    gl.Disable(GL_DEPTH_TEST);
+    paintFloor(drawing, i, toClip);
+    paintLines(drawing, i, toClip);
+    gl.Enable(GL_DEPTH_TEST);
+    paintSolids(drawing, i, toClip);
   }
 }
 
@@ -169,21 +204,10 @@ void ScenePainter::draw(const Drawing& drawing, std::span<const Instance> moving
   p.faces.clear();
   for (const SheetFace& face : drawing.faces) p.faces.emplace_back(drawing.camera, face);
   p.solids->prepare(p.faces, drawing.camera.position, moving);
-  const auto begin = [&] {
-    p.gl.Scissor(0, 0, drawing.width, drawing.height);
-    p.gl.DepthMask(GL_TRUE);
-  };
-  if (!sheet.colours.empty()) {
-    begin();
-    p.sheet->beginColours(drawing.lighting.background);
-    p.paint(drawing, p.programs(drawing.lighting, false), false);
-    p.sheet->readColours(drawing.width, drawing.height, sheet.colours.data());
-  }
-  if (sheet.things.empty() && sheet.ranges.empty()) return;
-  begin();
-  p.sheet->beginThings();
-  p.paint(drawing, p.programs(drawing.lighting, true), true);
-  p.sheet->readThings(drawing.width, drawing.height, sheet);
+  p.paint(drawing);
+  p.sheet->read(drawing.width, drawing.height, sheet.colours.data());
+  if (TurfPattern::isIn(drawing.lighting))
+    TurfPattern(p.scene, drawing.lighting).add(drawing, sheet.colours);
 }
 
 }  // namespace ortung

@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint8_t kNetCovers = 80;  ///< opacity of a net, of 255
 
 // Locations of the attributes, as in the shader.
-enum : GLuint { kPlace, kNormal, kMatrix, kStands, kPaint, kBand, kWhat };
+enum : GLuint { kPlace, kNormal, kMatrix, kStands, kPaint, kBand };
 
 const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
 
@@ -33,8 +33,14 @@ SolidPainter::SolidPainter(const GlFunctions& gl, const StandingScene& scene)
   gl_.GenVertexArrays(1, &bodies_);
   gl_.BindVertexArray(bodies_);
   vertices(gl_, mesh_.vertices);
+  GLuint corners = 0;
+  gl_.GenBuffers(1, &corners);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, corners);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(mesh_.corners.size() * sizeof mesh_.corners[0]),
+                 mesh_.corners.data(), GL_STATIC_DRAW);
   gl_.GenBuffers(1, &stretchedBuffer_);
-  for (const GLuint place : {kMatrix, kStands, kPaint, kBand, kWhat}) {
+  for (const GLuint place : {kMatrix, kStands, kPaint, kBand}) {
     gl_.EnableVertexAttribArray(place);
     gl_.VertexAttribDivisor(place, 1);
   }
@@ -52,7 +58,6 @@ SolidPainter::Stretched SolidPainter::stretched(const Instance& one,
   to.colour = one.colour;
   if (one.isNet) to.colour[3] = kNetCovers;
   to.band = one.band;
-  to.thing = one.thing;
   return to;
 }
 
@@ -91,8 +96,6 @@ void SolidPainter::attributes(std::size_t firstInstance) const {
                           at(first + offsetof(Stretched, colour)));
   gl_.VertexAttribPointer(kBand, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                           at(first + offsetof(Stretched, band)));
-  gl_.VertexAttribPointer(kWhat, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
-                          at(first + offsetof(Stretched, thing)));
 }
 
 void SolidPainter::paint(std::size_t face, std::size_t fromGroup, std::size_t toGroup) const {
@@ -102,9 +105,9 @@ void SolidPainter::paint(std::size_t face, std::size_t fromGroup, std::size_t to
     if (run.count == 0) continue;
     attributes(run.first);
     const std::size_t shape = g % kUnitShapes;
-    gl_.DrawArraysInstanced(GL_TRIANGLES, static_cast<GLint>(mesh_.first[shape]),
-                            static_cast<GLsizei>(mesh_.count[shape]),
-                            static_cast<GLsizei>(run.count));
+    gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(mesh_.count[shape]),
+                              GL_UNSIGNED_SHORT, at(mesh_.first[shape] * sizeof mesh_.corners[0]),
+                              static_cast<GLsizei>(run.count));
   }
 }
 
@@ -129,8 +132,6 @@ void SolidPainter::paintWalls(const FaceView& face, const std::array<double, 3>&
                      static_cast<float>(-camera[2]), static_cast<float>(1.0 - camera[2]));
   gl_.VertexAttrib4f(kPaint, 0.78F, 0.78F, 0.76F, 1.0F);
   gl_.VertexAttrib4f(kBand, 0.0F, 0.0F, 0.0F, 0.0F);
-  constexpr auto kWall = static_cast<float>(PixelClass::kWall) / 255.0F;
-  gl_.VertexAttrib4f(kWhat, kWall, 0.0F, 0.0F, 0.0F);
   gl_.MultiDrawArrays(GL_TRIANGLES, firsts_.data(), counts_.data(),
                       static_cast<GLsizei>(firsts_.size()));
 }

@@ -31,7 +31,6 @@ class SolidPainter {
     std::array<float, 4> stands;
     Rgba colour;
     Rgba band;
-    std::uint32_t thing;
   };
   struct Run {
     std::uint32_t first = 0;

@@ -25,7 +25,7 @@ struct Instance {
   double reach = 0.0;  ///< greatest distance of its points from (x, y, middle of z) [m]
   Rgba colour{};
   Rgba band{};  ///< colour of its upper part; alpha is that part's share of the height, of 255
-  std::uint32_t thing = 0;  ///< its word in Sheet::things
+  std::uint32_t thing = 0;  ///< its word in Traced::things
   bool isNet = false;       ///< whether cameras see through it
 };
 
@@ -79,6 +79,8 @@ Rgba rgbaOf(const std::string& colour, Rgba fallback);
 /// The triangles of all unit shapes in a row, with x and y in [-1, 1] and z in [0, 1].
 struct UnitMesh {
   std::vector<WallVertex> vertices;
+  std::vector<std::uint16_t> corners;  ///< vertices of the triangles, three for each
+  /// The corners of a shape are [first, first + count).
   std::array<std::uint32_t, kUnitShapes> first{};
   std::array<std::uint32_t, kUnitShapes> count{};
 };

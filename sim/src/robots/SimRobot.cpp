@@ -53,6 +53,8 @@ struct SimRobot::Mounted {
   Random random;
   Timestamp period = 0;
   Timestamp due = 0;
+  /// Time of a reading that is generated when somebody asks for it.
+  std::optional<Timestamp> postponed = std::nullopt;
   bool isOnDemand = false;
   bool isInput = false;      ///< whether another feature is derived from its readings
   std::vector<char> wanted;  ///< whether each feature is wanted
@@ -91,7 +93,7 @@ SimRobot::SimRobot(const RobotConfig& config, PluginFactory& factory, const Pose
     const bool isOnDemand = sensor && sensor->isOnDemand();
     sensors_.push_back({std::move(sensor), device.data,
                         std::vector<std::uint64_t>(device.data.size(), 0),
-                        random.fork(kFirstSensor + i), period, 0, isOnDemand, false,
+                        random.fork(kFirstSensor + i), period, 0, std::nullopt, isOnDemand, false,
                         std::vector<char>(device.data.size(), 0)});
   }
   markInputs();
@@ -134,25 +136,69 @@ double SimRobot::raysAtOnce() const {
   return sum;
 }
 
+/// Returns whether a sensor has to sense now.
+bool SimRobot::takeDue(Mounted& mounted, Timestamp now) {
+  if (!mounted.sensor) return false;
+  const bool isDue = now >= mounted.due;
+  // Keeps the rate even if the period is not a multiple of the cycle; at most one reading per
+  // cycle.
+  if (isDue) mounted.due = std::max(mounted.due + mounted.period, now + 1);
+  nextDue_ = std::min(nextDue_, mounted.due);
+  return isDue && mounted.senses();
+}
+
 std::span<Message> SimRobot::sense(const World& world, Timestamp now) {
   inFrame_ = 0;
   if (now < nextDue_ && !hasHeard_) return {};
   nextDue_ = std::numeric_limits<Timestamp>::max();
-  for (Mounted& mounted : sensors_) {
-    if (!mounted.sensor) continue;
-    const bool isDue = now >= mounted.due;
-    // Keeps the rate even if the period is not a multiple of the cycle; at most one reading per
-    // cycle.
-    if (isDue) mounted.due = std::max(mounted.due + mounted.period, now + 1);
-    nextDue_ = std::min(nextDue_, mounted.due);
-    if (!isDue || !mounted.senses()) continue;
-    try {
-      generate(mounted, world, now);
-    } catch (const PluginFailure& failure) {
-      mounted.sensor.reset();
-      report(now, std::string(failure.what()) + "; it is switched off");
-    }
+  for (Mounted& mounted : sensors_)
+    if (takeDue(mounted, now)) generate(mounted, world, now);
+  return frame(now);
+}
+
+std::span<Message> SimRobot::postpone(const World& world, Timestamp now) {
+  inFrame_ = 0;
+  if (now >= nextDue_) {
+    nextDue_ = std::numeric_limits<Timestamp>::max();
+    for (Mounted& mounted : sensors_)
+      if (takeDue(mounted, now)) mounted.postponed = now;
   }
+  return hasHeard_ ? sensePostponed(world, now) : std::span<Message>{};
+}
+
+bool SimRobot::hasPostponed(Timestamp time) const {
+  return std::any_of(sensors_.begin(), sensors_.end(),
+                     [&](const Mounted& mounted) { return mounted.postponed == time; });
+}
+
+std::optional<Timestamp> SimRobot::firstPostponed() const {
+  std::optional<Timestamp> first;
+  for (const Mounted& mounted : sensors_)
+    if (mounted.postponed && (!first || *mounted.postponed < *first)) first = mounted.postponed;
+  return first;
+}
+
+std::span<Message> SimRobot::sensePostponed(const World& world, Timestamp time) {
+  inFrame_ = 0;
+  for (Mounted& mounted : sensors_) {
+    if (mounted.postponed != time) continue;
+    mounted.postponed.reset();
+    if (mounted.sensor) generate(mounted, world, time);
+  }
+  return frame(time);
+}
+
+SensorContainer& SimRobot::container() {
+  if (whenRead_) std::exchange(whenRead_, nullptr)();
+  return container_;
+}
+const SensorContainer& SimRobot::container() const {
+  if (whenRead_) std::exchange(whenRead_, nullptr)();
+  return container_;
+}
+
+/// Completes the messages of a moment.
+std::span<Message> SimRobot::frame(Timestamp now) {
   if (std::exchange(hasHeard_, false))
     for (Mounted& mounted : sensors_) collect(mounted, now);
   extract(now);
@@ -166,9 +212,16 @@ Message& SimRobot::nextMessage() {
 }
 
 void SimRobot::generate(Mounted& mounted, const World& world, Timestamp now) {
-  mounted.sensor->generateData(world, state_, noise_ ? &mounted.random : nullptr, now,
-                               mounted.data);
-  collect(mounted, now);
+  std::optional<Random> ofNow;
+  if (noiseByTime_) ofNow = mounted.random.fork(static_cast<std::uint64_t>(now));
+  Random* noise = ofNow ? &*ofNow : &mounted.random;
+  try {
+    mounted.sensor->generateData(world, state_, noise_ ? noise : nullptr, now, mounted.data);
+    collect(mounted, now);
+  } catch (const PluginFailure& failure) {
+    mounted.sensor.reset();
+    report(now, std::string(failure.what()) + "; it is switched off");
+  }
 }
 
 void SimRobot::hear(Timestamp now, std::span<const Heard> said) {
@@ -253,7 +306,7 @@ void SimRobot::Voice::command(const Command& command) {
   try {
     robot_.command(command);
   } catch (const PluginFailure&) {
-    // The drive is switched off, which problems() reports.
+    return;  // the drive is switched off, which problems() reports
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "LateReadings.hpp"
 #include "Physics.hpp"
 #include "ortung/base/Workers.hpp"
 
@@ -54,13 +55,12 @@ void Simulation::Config::check() const {
 }
 
 Simulation::Simulation(std::unique_ptr<SimWorld> world, const Config& config)
-    : config_(config),
-      world_(std::move(world)),
-      field_(std::make_shared<FieldModel>(fieldModelOf(*world_))) {
+    : config_(config), world_(std::move(world)), field_(world_->field()) {
   config_.check();
   cycle_ = fromSeconds(config_.cycle.value_or(world_->physics().cycle));
-  physics_ = std::make_unique<Physics>(world_->physics(), world_->solids());
+  physics_ = std::make_unique<Physics>(world_->physics(), world_->solids(), config_.likeVersion02);
   workers_ = std::make_unique<Workers>(config_.threads);
+  if (config_.sensesWhenRead) late_ = std::make_unique<LateReadings>(*this);
   addThings();
 }
 
@@ -111,14 +111,16 @@ SimRobot& Simulation::addRobot(const RobotConfig& config, PluginFactory& factory
   // Tested before its plugins are made, which takes long, since many places may be tried.
   if (!fits(pieces, start, Physics::kNobody))
     throw NoRoom("robot " + config.name + ": start " + toText(start) + " has no room for it");
+  if (late_) late_->readAll();
   const Random random(config_.seed, kRobots * (added_ + 1));
   auto robot = std::make_unique<SimRobot>(config, factory, start, random, config_.noise);
-  robot->container().setField(field_);
+  robot->container_.setField(field_);
   robot->state_.number = world_->addBody({"robot", config.name, shape.colour, pieces}, start);
   robotBodies_.push_back(physics_->add(pieces, {shape.mass, Physics::Floor::kDrives}, start));
   robots_.push_back(std::move(robot));
   readings_.emplace_back();
   ++added_;
+  if (late_) late_->watch(*robots_.back());
   return *robots_.back();
 }
 
@@ -126,6 +128,7 @@ void Simulation::removeRobot(const SimRobot& robot) {
   const auto found = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const auto& other) { return other.get() == &robot; });
   if (found == robots_.end()) return;
+  if (late_) late_->readAll();
   const auto place = found - robots_.begin();
   world_->removeBody(robot.state().number);
   physics_->remove(robotBodies_[static_cast<std::size_t>(place)]);
@@ -142,19 +145,27 @@ SimRobot* Simulation::find(RobotNumber robot) const {
   return found != robots_.end() && (*found)->state().number == robot ? found->get() : nullptr;
 }
 
+std::span<Message> Simulation::newest(std::size_t robot) const {
+  if (late_) late_->read(robot);
+  return readings_[robot];
+}
+
+std::span<const Message> Simulation::readings(std::size_t robot) const { return newest(robot); }
+
 std::span<const Message> Simulation::readingsOf(RobotNumber robot) const {
   for (std::size_t i = 0; i < robots_.size(); ++i)
-    if (robots_[i]->state().number == robot) return readings_[i];
+    if (robots_[i]->state().number == robot) return newest(i);
   return {};
 }
 
 std::span<Message> Simulation::readingsOf(RobotNumber robot) {
   for (std::size_t i = 0; i < robots_.size(); ++i)
-    if (robots_[i]->state().number == robot) return readings_[i];
+    if (robots_[i]->state().number == robot) return newest(i);
   return {};
 }
 
 void Simulation::move() {
+  if (late_) late_->leave();
   moveManipulators();
   moveBodies();
   now_ += cycle_;
@@ -168,8 +179,11 @@ void Simulation::tellProblems() {
 }
 
 void Simulation::sense() {
-  workers_->run(robots_.size(),
-                [this](std::size_t i) { readings_[i] = robots_[i]->sense(*world_, now_); });
+  workers_->run(robots_.size(), [this](std::size_t i) {
+    SimRobot& robot = *robots_[i];
+    readings_[i] = robot.isRead() ? robot.sense(*world_, now_) : robot.postpone(*world_, now_);
+  });
+  if (late_) late_->remember();
 }
 
 void Simulation::moveManipulators() {
@@ -245,12 +259,14 @@ void Simulation::place(SimRobot& robot, const Pose2& pose) {
   const std::vector<Primitive> pieces = piecesOf(robot);
   if (!fits(pieces, pose, body))
     throw NoRoom("robot " + robot.config().name + ": there is no room at " + toText(pose));
+  if (late_) late_->leave();
   robot.place(pose);
   physics_->place(body, pose);
   world_->moveBody(robot.state().number, pose);
 }
 
 void Simulation::setTeam(const SimRobot& robot, const std::string& team) {
+  if (late_) late_->readAll();
   world_->markBody(robot.state().number, team);
 }
 
@@ -262,6 +278,7 @@ void Simulation::placeThing(std::size_t thing, const Pose2& pose, const Twist& v
                                   ", expected at most 1000 m/s or rad/s");
   if (!fits(thingPieces_[thing], pose, thingBodies_[thing]))
     throw std::invalid_argument(describe(moved) + ": there is no room at " + toText(pose));
+  if (late_) late_->leave();
   physics_->place(thingBodies_[thing], pose, velocity);
   moved.pose = pose;
   moved.velocity = velocity;

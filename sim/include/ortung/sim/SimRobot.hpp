@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -85,18 +86,31 @@ class ORTUNG_API SimRobot : public RobotCommands {
 
   const RobotConfig& config() const { return config_; }
   const RobotShape& shape() const { return shape_; }
-  SensorContainer& container() { return container_; }
-  const SensorContainer& container() const { return container_; }
+  /// Returns the container. If the simulation senses only when readings are asked for, it generates
+  /// those of this robot now, and from now on whenever they are due, since callers keep it.
+  SensorContainer& container();
+  const SensorContainer& container() const;
   const RobotState& state() const { return state_; }
   /// Returns the failures of its plugins, in the order of time.
   std::span<const std::string> problems() const { return problems_; }
 
  private:
   friend class Simulation;
+  friend class LateReadings;
 
   /// Generates the readings that are due. If there are any, the true pose is one of them. @returns
   /// the readings of this cycle, valid until the next call
   std::span<Message> sense(const World& world, Timestamp now);
+  /// Postpones the readings that are due, and with them older ones of the same sensors. @returns
+  /// the readings of a cycle in which it heard something
+  std::span<Message> postpone(const World& world, Timestamp now);
+  bool hasPostponed(Timestamp time) const;
+  /// Returns the time of the oldest readings that were postponed.
+  std::optional<Timestamp> firstPostponed() const;
+  /// Generates the readings that were postponed at a time, whose state it must have. @returns them,
+  /// valid until the next call
+  std::span<Message> sensePostponed(const World& world, Timestamp time);
+  bool isRead() const { return !whenRead_; }  ///< whether anybody has asked for its container
   /// Returns the state that a manipulator should enter; nothing if it is in that state.
   std::optional<std::size_t> nextState(std::size_t manipulator, Timestamp now);
   void enterState(std::size_t manipulator, std::size_t state, Timestamp now);
@@ -125,6 +139,8 @@ class ORTUNG_API SimRobot : public RobotCommands {
 
   struct Mounted;
   void markInputs();
+  bool takeDue(Mounted& mounted, Timestamp now);
+  std::span<Message> frame(Timestamp now);
   void generate(Mounted& mounted, const World& world, Timestamp now);
   void extract(Timestamp now);
   void collect(Mounted& mounted, Timestamp now);
@@ -153,6 +169,10 @@ class ORTUNG_API SimRobot : public RobotCommands {
   Random odometryRandom_;
   Random slipRandom_;
   bool noise_;
+  /// Whether a sensor's random numbers depend on the time alone, not on earlier readings.
+  bool noiseByTime_ = false;
+  /// Called when its container is asked for, if its readings are generated only then.
+  mutable std::function<void()> whenRead_;
   std::vector<Message> frame_;  ///< messages, which are reused so that a cycle allocates nothing
   std::size_t inFrame_ = 0;
   Timestamp now_ = 0;      ///< time of the current cycle

@@ -12,6 +12,7 @@
 #include "ortung/sim/Primitive.hpp"
 #include "ortung/sim/Solids.hpp"
 #include "ortung/sim_api/World.hpp"
+#include "ortung/tables/FieldModel.hpp"
 #include "ortung/tables/FieldRegion.hpp"
 
 namespace ortung {
@@ -42,6 +43,8 @@ class ORTUNG_API SimWorld : public World {
   /// called for them.
   virtual std::span<const Primitive> movables() const { return {}; }
 
+  /// Returns fieldModelOf() this world, which its copies may share.
+  virtual std::shared_ptr<const FieldModel> field() const;
   /// Returns a digest of 16 hexadecimal digits over everything that determines what sensors learn:
   /// not names, comments, the order in the file, nor anything that moves.
   virtual std::string fingerprint() const = 0;

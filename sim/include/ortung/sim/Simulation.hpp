@@ -15,6 +15,7 @@
 
 namespace ortung {
 
+class LateReadings;
 class Physics;
 class Workers;
 
@@ -38,6 +39,12 @@ class ORTUNG_API Simulation {
     unsigned threads = 1;  ///< number of threads that sense
     /// Called at the end of a cycle with each failure of a robot's plugins; may be empty.
     std::function<void(const std::string&)> onProblem = {};
+    /// Whether bodies move as they did in version 0.2, bit for bit, which takes longer.
+    bool likeVersion02 = false;
+    /// Whether sensors sense only when somebody asks for their readings, by readings() or for a
+    /// robot's container. Each reading then has random numbers of its own, and is the same whether
+    /// it is asked for at once, later, or after many that nobody asked for.
+    bool sensesWhenRead = false;
     /// Checks the settings. @throws std::invalid_argument naming the field, its value and the range
     void check() const;
   };
@@ -78,7 +85,7 @@ class ORTUNG_API Simulation {
   /// Returns the robot with this number, which is never reused; null if it has left.
   SimRobot* find(RobotNumber robot) const;
   /// Returns the readings of a robot's sensors in the last cycle; valid until the next.
-  std::span<const Message> readings(std::size_t robot) const { return readings_[robot]; }
+  std::span<const Message> readings(std::size_t robot) const;
   /// Returns the same by a robot's number; none if it has left.
   std::span<const Message> readingsOf(RobotNumber robot) const;
   /// Returns the readings for callers that move the words out of them.
@@ -114,6 +121,9 @@ class ORTUNG_API Simulation {
   void tellProblems();
   bool fits(std::span<const Primitive> pieces, const Pose2& pose, std::size_t self) const;
 
+  friend class LateReadings;
+  std::span<Message> newest(std::size_t robot) const;
+
   Config config_;
   std::unique_ptr<SimWorld> world_;
   std::shared_ptr<const FieldModel> field_;  ///< what robots know of the world in advance
@@ -121,6 +131,7 @@ class ORTUNG_API Simulation {
   std::unique_ptr<Workers> workers_;
   std::vector<std::unique_ptr<SimRobot>> robots_;
   std::vector<std::span<Message>> readings_;
+  std::unique_ptr<LateReadings> late_;    ///< null: sensors sense when they are due
   std::vector<std::size_t> robotBodies_;  ///< the robots' bodies in the physics
   std::vector<Thing> things_;
   std::vector<std::size_t> thingBodies_;   ///< the things' bodies in the physics

@@ -8,7 +8,7 @@
 
 namespace ortung {
 
-/// The class of the thing that a pixel shows, as written into Sheet::things.
+/// The class of the thing that a pixel shows.
 enum class PixelClass : std::uint8_t {
   kBackground,  ///< nothing, or the floor beyond the field
   kField,       ///< the playing field's floor
@@ -69,10 +69,22 @@ struct Drawing {
   static constexpr int kMostPixels = 8192;  ///< longest side of a sheet [pixels]
 };
 
-/// The arrays into which a drawing is written: width * height entries each, row by row from the
-/// top. An empty one is not wanted. Pixels that no face covers have undefined values.
+/// The array into which a drawing is written: width * height entries, row by row from the top.
+/// Pixels that no face covers have undefined values.
 struct Sheet {
   std::span<std::uint32_t> colours;  ///< red + 256 green + 65536 blue + 2^24 * anything
+};
+
+/// The rays of a camera's pixels: the arguments of World::trace().
+struct Sight {
+  CameraPose camera;
+  /// Directions in the camera frame, of length 1; (0, 0, 0) for a pixel that shows nothing.
+  std::span<const std::array<float, 3>> rays;
+  std::uint32_t ignore = 0;  ///< as Drawing::ignore
+};
+
+/// The arrays into which World::trace() writes what each ray meets first: as many entries as rays.
+struct Traced {
   /// PixelClass + 256 * (place among World::objects() + 1, or 0 for none of them)
   std::span<std::uint32_t> things;
   /// Straight-line distance from the camera [m]; infinity where there is nothing.

@@ -136,6 +136,10 @@ class ORTUNG_API World {
   /// meet, except that balls are spheres.
   /// @throws std::runtime_error naming what must be installed, where pictures can't be drawn
   virtual void draw(const Drawing& drawing, const Sheet& sheet) const;
+
+  /// Writes what the rays of a camera meet: what draw() shows, except that nets are seen through.
+  /// @throws std::invalid_argument unless there are as many things and ranges as rays
+  virtual void trace(const Sight& sight, const Traced& traced) const;
 };
 
 /// Returns what a robot may know of a world in advance: everything that does not move.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,24 +48,26 @@ class ORTUNG_API CameraPicture {
   void take(const World& world, const Pose2& sensor, RobotNumber self,
             const std::optional<Noise>& noise, std::vector<std::uint32_t>& words);
 
-  /// Writes what each pixel of the same picture shows, as Sheet::things and Sheet::ranges; either
-  /// may be empty. @pre they have as many entries as the picture has pixels, or none
+  /// Writes what the ray through each pixel's middle meets. It needs no OpenGL.
+  /// @throws std::invalid_argument unless both have as many entries as the picture has pixels
   void annotate(const World& world, const Pose2& sensor, RobotNumber self,
                 std::span<std::uint32_t> things, std::span<float> ranges);
 
  private:
   struct Effects;
   Drawing drawing(const Pose2& sensor, RobotNumber self) const;
+  const std::uint32_t* drawnRow(int row);
   void develop(const std::optional<Noise>& noise, std::span<std::uint8_t> rgb);
+
+  static constexpr int kRows = 3;  ///< number of composed rows that are kept
 
   CameraView camera_;
   CameraSheet sheet_;
   Lighting lighting_;
   std::unique_ptr<Effects> effects_;  ///< the effects to be applied; null: none
   std::vector<std::uint32_t> colours_;
-  std::vector<std::uint32_t> pixels_;
-  std::vector<std::uint32_t> things_;
-  std::vector<float> ranges_;
+  std::vector<std::uint32_t> composed_;     ///< newest rows that were composed of the faces
+  std::vector<std::array<float, 3>> rays_;  ///< rays of all pixels; none until they are needed
 };
 
 }  // namespace ortung

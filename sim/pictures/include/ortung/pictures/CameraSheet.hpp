@@ -33,12 +33,6 @@ class ORTUNG_API CameraSheet {
   /// @pre neither is empty; out.size() == count * width
   void resample(std::span<const std::uint32_t> sheet, int first, int count,
                 std::span<std::uint32_t> out) const;
-  /// Writes the whole picture from the nearest texel per pixel; @p nothing where the camera sees
-  /// nothing.
-  void pick(std::span<const std::uint32_t> sheet, std::uint32_t nothing,
-            std::span<std::uint32_t> out) const;
-  void pick(std::span<const float> sheet, float nothing, std::span<float> out) const;
-
   /// The place of a pixel on the sheet.
   struct Place {
     std::uint32_t texel = 0;  ///< index of the upper left of its four texels
@@ -47,9 +41,6 @@ class ORTUNG_API CameraSheet {
   };
 
  private:
-  template <class Value>
-  void pickNearest(std::span<const Value> sheet, Value nothing, std::span<Value> out) const;
-
   ImageSize picture_;
   ImageSize size_;
   std::vector<SheetFace> faces_;
