@@ -66,6 +66,8 @@ Signature signatureOf(OutputKind kind) {
       return {"a motion network", "{", "\"ortung motion network"};
     case OutputKind::kBenchmark:
       return {"a result of `ortung benchmark`", "{", "\"ortung goalkeeper benchmark"};
+    case OutputKind::kFootball:
+      return {"a result of `ortung benchmark football`", "{", "\"ortung football benchmark"};
     case OutputKind::kPage:
       return {"a page of `ortung benchmark`", "<!doctype html>", "<title>Goalkeeper benchmark"};
     case OutputKind::kRawlog:

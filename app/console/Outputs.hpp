@@ -26,6 +26,7 @@ enum class OutputKind : std::uint8_t {
   kMotion,      ///< TOML of learn-motion
   kNetwork,     ///< JSON of train-motion
   kBenchmark,   ///< JSON of benchmark
+  kFootball,    ///< JSON of benchmark football
   kPage,        ///< HTML of benchmark
   kRawlog,      ///< rawlogs and grid maps of MRPT
   kMcap,        ///< messages of ROS 2

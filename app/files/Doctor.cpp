@@ -41,6 +41,7 @@ Finding processor() {
   const InstructionSet set = instructionSet();
   const char* name = set == InstructionSet::kAvx512 ? "AVX-512"
                      : set == InstructionSet::kAvx2 ? "AVX2"
+                     : set == InstructionSet::kNeon ? "NEON"
                                                     : "the portable instructions";
   const std::string text =
       fmt::format("{} threads, loops use {}", std::thread::hardware_concurrency(), name);

@@ -86,6 +86,17 @@ void readWhole(const Parameters& toml, PluginFactory& factory) {
   RobotShape::read(robot);
 }
 
+/// Takes back what is required, where files that can be read do without it: with another `model`,
+/// a camera needs other keys.
+void excuse(KeySurvey& survey, const KeySurvey& files) {
+  for (auto& [key, entry] : survey.keys)
+    if (const auto in = files.keys.find(key); in != files.keys.end())
+      entry.isRequired = entry.isRequired && in->second.isRequired;
+  for (auto& [name, table] : survey.tables)
+    if (const auto in = files.tables.find(name); in != files.tables.end())
+      excuse(table, in->second);
+}
+
 KeySurvey surveyRobots() {
   KeySurvey all;
   PluginFactory factory(PluginFactory::standardFolders());
@@ -106,8 +117,12 @@ KeySurvey surveyRobots() {
                                                         {"drive", PluginKind::kDrive},
                                                         {"motion", PluginKind::kMotion}};
   for (const auto& [table, kind] : plugins)
-    for (const auto& [name, survey] : surveyPlugins(kind))
-      all.tables[table].variants[name].addReader(survey);
+    for (const auto& [name, survey] : surveyPlugins(kind)) {
+      KeySurvey& variant = all.tables[table].variants[name];
+      const KeySurvey files = variant;
+      variant.addReader(survey);
+      excuse(variant, files);
+    }
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "CalibrateNoise.hpp"
 #include "Console.hpp"
 #include "EvalParts.hpp"
+#include "Football.hpp"
 #include "GoalkeeperParts.hpp"
 #include "LearnParts.hpp"
 #include "NoiseParts.hpp"
@@ -43,6 +44,13 @@ void mergeBenchmark(const PartSet& parts, const MergeArguments& arguments, Outpu
   fmt::print("{}", toText(matrix));
 }
 
+void mergeHalves(const PartSet& parts, const MergeArguments& arguments, Outputs& outputs) {
+  const std::filesystem::path& out = outOf(arguments, outputs, OutputKind::kFootball);
+  const FootballMatrix matrix = mergeFootballParts(parts);
+  outputs.write(out, toJson(matrix, ORTUNG_VERSION));
+  fmt::print("{}", toText(matrix));
+}
+
 void merge(const MergeArguments& arguments) {
   Outputs outputs(arguments.force);
   for (const auto& part : arguments.parts) outputs.reads(part);
@@ -59,6 +67,7 @@ void merge(const MergeArguments& arguments) {
   }
   if (kind == kEvalParts) return mergeRuns(parts, arguments, outputs);
   if (kind == kGoalkeeperParts) return mergeBenchmark(parts, arguments, outputs);
+  if (kind == kFootballParts) return mergeHalves(parts, arguments, outputs);
 #ifdef ORTUNG_HAS_PICTURES
   if (kind == kPictureParts) {
     fmt::print("{}: {} pictures\n", arguments.out.string(),

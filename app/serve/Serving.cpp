@@ -128,6 +128,7 @@ Serving::Serving(const ServingArguments& arguments, const WebUploads& uploads)
   if (arguments.freeRun) config_.pace = Pace::kFree;
   if (arguments.lockstep) config_.pace = Pace::kLockstep;
   config_.limits.idle = arguments.idle;
+  config_.limits.slowShare = arguments.mapShare;
   config_.limits.sessions = arguments.clients;
   config_.limits.sessionsOfAddress = arguments.clientsOfAddress;
   allowFiles(arguments.clients);

@@ -15,6 +15,7 @@ struct ServingArguments {
   double idle = 30.0;                 ///< silence after which a client is disconnected [s]
   unsigned clients = 256;             ///< greatest number of clients at a time
   unsigned clientsOfAddress = 128;    ///< greatest number of clients from one computer
+  double mapShare = 0.25;             ///< share of a processor for clients' maps, in (0, 1]
   double speed = 1.0;                 ///< world time / real time
   bool freeRun = false;
   bool lockstep = false;

@@ -48,6 +48,11 @@ void addServing(Builder& build, ServingArguments& a) {
               "Greatest number of clients from one computer")
       .within(1, 100000)
       .showsDefault();
+  build
+      .option("--map-share", a.mapShare,
+              "Share of one processor for clients' maps and other slow commands, together")
+      .within(0.001, 1.0)
+      .showsDefault();
   build.option("--speed", a.speed, "Speed relative to real time")
       .within(0.001, 1000.0)
       .showsDefault();

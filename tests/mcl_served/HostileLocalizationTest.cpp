@@ -16,6 +16,12 @@ TEST(LocalizationCommands, AreThoseOfThePage) {
   expectDocumented("Localization", localizationCommands(robots));
 }
 
+TEST(LocalizationCommands, ThatComputeMuchAreSlowOnesWhichHoldUpNobody) {
+  FakeRobots robots;
+  for (const BoardCommand& command : localizationCommands(robots))
+    EXPECT_EQ(command.isSlow, command.name == "HEATMAP" || command.name == "WHY") << command.name;
+}
+
 TEST(LocalizationCommands, TakeOrdersOfOperatorsAlone) {
   FakeRobots robots;
   const Asking client(robots);

@@ -1,7 +1,11 @@
 // Commands that whoever hosts the board adds to the protocol.
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <latch>
+#include <map>
+#include <set>
+#include <thread>
 
 #include "Await.hpp"
 #include "CountingWorld.hpp"
@@ -128,6 +132,34 @@ TEST(Commands, ThatAreSlowHoldUpNeitherTheWorldNorOtherClients) {
   EXPECT_EQ(anna.line(), "#1 OK THINK bytes=3");
   EXPECT_EQ(anna.bytes(3), std::string("a\0\n", 3));
   EXPECT_EQ(anna.line(), "#2 OK ECHO from=anna lines=1");
+}
+
+TEST(Commands, ThatAreSlowHaveAThreadThatIsNeitherTheWorldsNorTheClients) {
+  CountingWorld world;
+  std::set<std::thread::id> threads;
+  std::map<std::string, int> policies;
+  const auto named = [&](const std::string& name, bool isSlow) {
+    return BoardCommand{.name = name,
+                        .help = "",
+                        .handle =
+                            [&, name](const BoardCommand::Call&) {
+                              threads.insert(std::this_thread::get_id());
+                              policies[name] = ::sched_getscheduler(0);
+                              return BoardCommand::Reply{};
+                            },
+                        .isSlow = isSlow};
+  };
+  BoardConfig config;
+  config.commands = {named("WORLDS", false), named("SLOW", true), named("MORE", true)};
+  const RunningBoard board(world, config);
+  TestClient client(board.port());
+  client.ask("HELLO ortung/1");
+  for (const char* command : {"WORLDS", "SLOW", "MORE"}) client.ask(command);
+  EXPECT_EQ(threads.size(), 2U);
+  EXPECT_FALSE(threads.contains(std::this_thread::get_id()));
+  EXPECT_EQ(policies["WORLDS"], ::sched_getscheduler(0));
+  EXPECT_EQ(policies["SLOW"], SCHED_BATCH);
+  EXPECT_EQ(policies["MORE"], SCHED_BATCH);
 }
 
 TEST(Commands, ThatAreSlowSeeThatNobodyWaitsForThemAnyMore) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -6,6 +7,7 @@
 #include <latch>
 
 #include "BoardClock.hpp"
+#include "ProcessorShare.hpp"
 #include "SlowWork.hpp"
 #include "ortung/server/ProcessorTime.hpp"
 
@@ -25,10 +27,12 @@ TEST(SlowWork, GivesClientsTurnsAndHasALowPriority) {
   std::latch done{1};
   const int usual = priority();
   int itsOwn = 0;
+  int policy = 0;
   int directors = 0;
   work.give(1, {[] { return true; },
                 [&] {
                   itsOwn = priority();
+                  policy = ::sched_getscheduler(0);
                   begun.count_down();
                   let.wait();
                 },
@@ -45,7 +49,29 @@ TEST(SlowWork, GivesClientsTurnsAndHasALowPriority) {
   done.wait();
   EXPECT_EQ(order, "b31");
   EXPECT_EQ(itsOwn, std::max(10, usual));
+  EXPECT_EQ(policy, SCHED_BATCH) << "it takes no processor from anyone when it wakes up";
   EXPECT_EQ(directors, usual) << "nobody waits for a thread that may get no processor";
+}
+
+TEST(SlowWork, WhoNeverRestsGetsItsShareOfEverySecondAndNoMore) {
+  constexpr double kShare = 0.25;
+  constexpr double kSlice = 0.0003;         // that it takes before it asks [s]
+  constexpr Timestamp kSecond = 1'000'000;  // [us]
+  ProcessorShare share(kShare);
+  Timestamp now = kSecond;
+  double used = 0.0;
+  double before = 0.0;
+  for (int second = 0; second < 10; ++second) {
+    const Timestamp end = now + kSecond;
+    while (now < end) {
+      used += kSlice;
+      now += fromSeconds(kSlice);
+      now += fromSeconds(share.charge(used, now));
+    }
+    // In the first second it also takes what was there at the beginning.
+    EXPECT_NEAR(used - before, second == 0 ? 2 * kShare : kShare, 0.002) << second;
+    before = used;
+  }
 }
 
 TEST(SlowWork, HoldsUpOnlyItsOwnThread) {

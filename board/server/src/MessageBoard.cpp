@@ -16,8 +16,10 @@
 
 #include "BoardChecks.hpp"
 #include "Entrance.hpp"
+#include "Scheduling.hpp"
 #include "Session.hpp"
 #include "SlowWork.hpp"
+#include "ortung/server/Patience.hpp"
 
 namespace ortung {
 namespace {
@@ -279,7 +281,10 @@ std::uint16_t MessageBoard::port() const { return parts_->port_; }
 void MessageBoard::run(const std::function<bool()>& goesOn) {
   std::thread clients;
   try {
-    clients = std::thread([this] { parts_->io_.run(); });
+    clients = std::thread([this] {
+      server::comeForward();
+      parts_->io_.run();
+    });
   } catch (const std::system_error& error) {
     throw std::runtime_error(std::string("the thread that talks to clients can't be made: ") +
                              error.what());
@@ -290,6 +295,7 @@ void MessageBoard::run(const std::function<bool()>& goesOn) {
     clients.join();
   };
   try {
+    const Patience patience(Patience::kWorld);
     parts_->keeper_.run(goesOn);
   } catch (...) {
     end();

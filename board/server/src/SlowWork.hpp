@@ -10,8 +10,8 @@
 #include <stop_token>
 #include <thread>
 
+#include "ProcessorShare.hpp"
 #include "SlowTask.hpp"
-#include "TalkBudget.hpp"
 #include "WorldKeeper.hpp"
 
 namespace ortung::server {
@@ -41,7 +41,6 @@ class SlowWork {
   void work();
   void direct(const std::stop_token& stop);
   std::optional<SlowTask> take(const std::stop_token& stop);
-  double charge();
 
   std::mutex mutex_;  ///< guards turns_ and tasks_; not for the thread that works
   std::condition_variable_any news_;
@@ -49,9 +48,8 @@ class SlowWork {
   std::map<ClientId, SlowTask> tasks_;
   // Both threads use these, but never at the same time: one waits for the other.
   const std::function<void()>* job_ = nullptr;  ///< null: the end
-  TalkBudget budget_;     ///< what it counts as lines are seconds of a processor
-  double used_ = 0.0;     ///< processor time of the thread that works [s]
-  double charged_ = 0.0;  ///< of that, what was paid for [s]
+  ProcessorShare share_;
+  double used_ = 0.0;  ///< processor time of the thread that works [s]
   std::binary_semaphore begins_{0};
   std::binary_semaphore ends_{0};
   std::thread worker_;

@@ -7,6 +7,7 @@
 #include "ortung/formats/FeatureOf.hpp"
 #include "ortung/formats/FormatNames.hpp"
 #include "ortung/formats/OdometryData.hpp"
+#include "ortung/server/Patience.hpp"
 
 namespace ortung {
 namespace {
@@ -124,6 +125,7 @@ void FilterThread::requestStop() { thread_.request_stop(); }
 // --- the thread
 
 void FilterThread::run(const std::stop_token& stop) {
+  const Patience patience(Patience::kBeside);
   while (auto inbox = await(stop)) {
     try {
       if (inbox->isRestarted && localization_) open({});
@@ -175,6 +177,7 @@ void FilterThread::open(const LocalizationStart& start) {
   config.threads = 1;
   config.start = start;
   config.publish = true;
+  config.keepsTime = true;  // moments that come meanwhile would be dropped
   localization_ =
       std::make_shared<Localization>(openRobot(config_.robot, *tables_), nullptr, config);
   const SensorContainer& container = localization_->container();

@@ -25,12 +25,9 @@ constexpr std::size_t kMostPlanners = 8;  // each keeps a plan of the floor for 
 
 /// "player NAME WHAT", and for each of its options "option NAME KEY [unit=U] TEXT; default: D".
 std::vector<std::string> helpOfPlayers(PluginFactory& factory) {
-  std::set<std::string> names;
-  for (const PluginFactory::Found& library : factory.list())
-    for (const PluginFactory::Found::Entry& entry : library.entries)
-      if (entry.interface == Player::kInterface) names.insert(entry.name);
+  constexpr std::string_view kPlayers[] = {Player::kInterface};
   std::vector<std::string> lines;
-  for (const std::string& name : names) {
+  for (const std::string& name : pluginsOf(factory, kPlayers)) {
     const auto help = factory.makeIfThere<PlayerHelp>(name, Parameters());
     lines.push_back("player " + name + (help ? " " + help->what() : ""));
     if (!help) continue;

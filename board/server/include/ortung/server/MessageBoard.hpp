@@ -36,7 +36,7 @@ struct BoardLimits {
   std::size_t say = 4096;             ///< length of one text to say [bytes]
   std::size_t talk = 64u << 10;       ///< others' words waiting for a client [bytes]; more: lost
   std::size_t queries = 64;           ///< queries in one request for readings
-  double slowShare = 0.5;    ///< share of a processor that slow commands have together, in (0, 1]
+  double slowShare = 0.25;   ///< share of a processor that slow commands have together, in (0, 1]
   double seekShare = 0.25;   ///< share of the world's time that goes into SEEK, in (0, 1]
   std::size_t errors = 100;  ///< a client's errors in a row; more: it is dropped
   double handshake = 5.0;    ///< time from connecting to HELLO [s]
