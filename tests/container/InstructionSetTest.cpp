@@ -2,19 +2,38 @@
 // give the same bits.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "FakeRoom.hpp"
 #include "ScanCost.hpp"
+#include "ortung/base/GaussianRows.hpp"
 #include "ortung/base/InstructionSet.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
 namespace {
 
-constexpr std::array kSets{InstructionSet::kPortable, InstructionSet::kAvx2,
-                           InstructionSet::kAvx512};
+/// A set, and the word of $ORTUNG_SIMD for it on this kind of processor.
+struct Choice {
+  const char* word;
+  InstructionSet set;
+};
+#ifdef ORTUNG_NEON
+constexpr std::array kChoices{Choice{"portable", InstructionSet::kPortable},
+                              Choice{"neon", InstructionSet::kNeon}};
+constexpr const char* kWords = "portable or neon";
+constexpr std::array kForeign{"avx2", "avx512"};
+#else
+constexpr std::array kChoices{Choice{"portable", InstructionSet::kPortable},
+                              Choice{"avx2", InstructionSet::kAvx2},
+                              Choice{"avx512", InstructionSet::kAvx512}};
+constexpr const char* kWords = "portable, avx2 or avx512";
+constexpr std::array kForeign{"neon"};
+#endif
 
 int codeOf(InstructionSet set) { return 10 + static_cast<int>(set); }
 
@@ -31,18 +50,16 @@ void expectChosen(const char* value, InstructionSet most) {
   else
     ::setenv("ORTUNG_SIMD", value, 1);
   InstructionSet expected = InstructionSet::kPortable;
-  for (const InstructionSet set : kSets)
-    if (set <= most && hasInstructionSet(set)) expected = set;
+  for (const Choice& choice : kChoices)
+    if (choice.set <= most && hasInstructionSet(choice.set)) expected = choice.set;
   EXPECT_EXIT(exitWithChoice(), ::testing::ExitedWithCode(codeOf(expected)), "")
       << (value == nullptr ? "not set" : value);
 }
 
 TEST(InstructionSetDeathTest, TheVariableLowersTheChoice) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // a new process: the choice is made once
-  expectChosen("portable", InstructionSet::kPortable);
-  expectChosen("avx2", InstructionSet::kAvx2);
-  expectChosen("avx512", InstructionSet::kAvx512);
-  expectChosen(nullptr, InstructionSet::kAvx512);
+  for (const Choice& choice : kChoices) expectChosen(choice.word, choice.set);
+  expectChosen(nullptr, kChoices.back().set);
   ::unsetenv("ORTUNG_SIMD");
 }
 
@@ -50,14 +67,14 @@ template <class Result>
 void expectSameBits(const Result& make, const std::string& what) {
   useInstructionSet(InstructionSet::kPortable);
   const auto portable = make();
-  for (const InstructionSet set : kSets) {
+  for (const auto& [word, set] : kChoices) {
     if (!hasInstructionSet(set)) continue;
     useInstructionSet(set);
     const auto found = make();
     ASSERT_EQ(found.size(), portable.size());
     if (found.empty()) continue;  // no bytes to compare, and memcmp wants some
     EXPECT_EQ(std::memcmp(found.data(), portable.data(), found.size() * sizeof found[0]), 0)
-        << what << ", set " << static_cast<int>(set);
+        << what << ", " << word;
   }
   useInstructionSet(std::nullopt);
 }
@@ -80,6 +97,25 @@ TEST(InstructionSet, RandomNumbersAreTheSameBitsFromEveryPlaceAndOfEveryLength) 
             return numbers;
           },
           "gaussian, " + what);
+    }
+  }
+}
+
+TEST(InstructionSet, RowsOfGaussianNumbersAreTheSameBits) {
+  for (const std::size_t n : {0u, 1u, 15u, 16u, 17u, 256u}) {
+    for (const std::uint64_t first : {0u, 1u, 17u}) {
+      std::vector<float> numbers(4 * n);
+      fillGaussian(3, 4, 4 * first, numbers);
+      expectSameBits(
+          [&] {
+            std::vector<float> rows(4 * n);
+            const auto row = [&](std::size_t k) { return std::span(rows).subspan(k * n, n); };
+            fillGaussianRows(3, 4, first, {row(0), row(1), row(2), row(3)});
+            for (std::size_t i = 0; i < rows.size(); ++i)
+              EXPECT_EQ(row(i % 4)[i / 4], numbers[i]) << n << " from " << first;
+            return rows;
+          },
+          std::to_string(n) + " from " + std::to_string(first));
     }
   }
 }
@@ -140,20 +176,21 @@ TEST(InstructionSet, ScansWeighTheSameBits) {
 }
 
 TEST(InstructionSet, AMisspeltChoiceIsRefusedByName) {
-  for (const char* fine : {"portable", "avx2", "avx512"}) {
-    ::setenv("ORTUNG_SIMD", fine, 1);
-    EXPECT_NO_THROW(checkInstructionSet()) << fine;
+  for (const Choice& fine : kChoices) {
+    ::setenv("ORTUNG_SIMD", fine.word, 1);
+    EXPECT_NO_THROW(checkInstructionSet()) << fine.word;
   }
   ::unsetenv("ORTUNG_SIMD");
   EXPECT_NO_THROW(checkInstructionSet());
-  for (const std::string misspelt : {"AVX2", "sse", ""}) {
+  std::vector<std::string> refused{"AVX2", "sse", ""};
+  refused.insert(refused.end(), kForeign.begin(), kForeign.end());
+  for (const std::string& misspelt : refused) {
     ::setenv("ORTUNG_SIMD", misspelt.c_str(), 1);
     try {
       checkInstructionSet();
       ADD_FAILURE() << misspelt;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(error.what(),
-                "$ORTUNG_SIMD is '" + misspelt + "', expected portable, avx2 or avx512");
+      EXPECT_EQ(error.what(), "$ORTUNG_SIMD is '" + misspelt + "', expected " + kWords);
     }
   }
   ::unsetenv("ORTUNG_SIMD");

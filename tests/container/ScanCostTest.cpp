@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -11,6 +12,9 @@
 
 namespace ortung {
 namespace {
+
+constexpr std::array kSets{InstructionSet::kPortable, InstructionSet::kAvx2,
+                           InstructionSet::kAvx512, InstructionSet::kNeon};
 
 struct Problem {
   std::vector<std::uint8_t> levels;
@@ -143,20 +147,19 @@ TightProblem makeTightProblem(std::size_t used, std::size_t rows, std::size_t ki
   return t;
 }
 
-// The portable kernel looks costs up in tables from 16 rows on, and for up to 32 kinds of readings,
-// 512 of them at once.
+// The portable kernel looks costs up two at a time from 8 rows on, and for up to 16 pairs of caps;
+// 512 readings at once.
 TEST(ScanCost, AllKernelsEqualTheFormulaAtEverySizeWithinTheirBuffers) {
   std::vector<std::size_t> sizes;
   for (std::size_t used = 1; used <= 2 * kScanBlock + 1; ++used) sizes.push_back(used);
   sizes.insert(sizes.end(), {511, 512, 513, 1025});
   std::uint64_t seed = 0;
   for (const std::size_t used : sizes) {
-    for (const std::size_t rows : {1u, 15u, 16u, 17u}) {
-      for (const std::size_t kinds : {1u, 2u, 31u, 32u, 33u, 200u}) {
+    for (const std::size_t rows : {1u, 7u, 8u, 9u}) {
+      for (const std::size_t kinds : {1u, 2u, 15u, 16u, 17u, 32u, 200u}) {
         const TightProblem t = makeTightProblem(used, rows, kinds, ++seed);
         const std::vector<std::uint32_t> expected = reference(t.p);
-        for (const InstructionSet set :
-             {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+        for (const InstructionSet set : kSets) {
           const ScanCostKernel kernel = scanCostKernel(set);
           if (kernel == nullptr) continue;
           std::vector<std::uint32_t> costs(rows);
@@ -176,8 +179,7 @@ TEST(ScanCost, DoesNotOverflow) {
   std::fill(p.table.begin(), p.table.end(), 255);
   std::fill(p.caps.begin(), p.caps.end(), 255);
   p.reading.costs.fill(255);
-  for (const InstructionSet set :
-       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+  for (const InstructionSet set : kSets) {
     const ScanCostKernel kernel = scanCostKernel(set);
     if (kernel == nullptr) continue;
     std::uint32_t cost = 0;

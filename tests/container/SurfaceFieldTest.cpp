@@ -1,8 +1,11 @@
 // Lines and spots that beams end on, against closed form.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "FakeRoom.hpp"
 #include "Files.hpp"
@@ -90,6 +93,47 @@ TEST(SurfaceField, KnowsASpotOnAllSides) {
   EXPECT_EQ(field.near(1.2, 0.2), nullptr);  // out of reach
 }
 
+/// Of the cells with ends within reach, the centre of the nearest; of several, of the highest row,
+/// then of the highest column. Not a number: none is within reach.
+std::array<double, 2> nearestOf(const std::set<std::pair<int, int>>& marked, int column, int row) {
+  int best = SurfaceField::kReach * SurfaceField::kReach + 1;
+  std::array<double, 2> centre{NAN, NAN};
+  for (int r = SurfaceField::kReach; r >= -SurfaceField::kReach; --r)
+    for (int c = SurfaceField::kReach; c >= -SurfaceField::kReach; --c) {
+      if (r * r + c * c >= best || !marked.contains({column + c, row + r})) continue;
+      best = r * r + c * c;
+      centre = {(column + c + 0.5) * 0.05, (row + r + 0.5) * 0.05};
+    }
+  return centre;
+}
+
+TEST(SurfaceField, IsOfTheNearestCellEverywhere) {
+  Random random(11);
+  std::set<std::pair<int, int>> marked;  // columns and rows of cells of 0.05 m
+  for (int i = 0; i < 40; ++i)
+    marked.insert(
+        {static_cast<int>(random.uniform(-30, 30)), static_cast<int>(random.uniform(-30, 30))});
+  for (int i = -25; i < 10; ++i) {  // walls, also slanting and thick ones
+    marked.insert({i, -12});
+    marked.insert({17, i});
+    marked.insert({i, i + 9});
+    for (int thick = 0; thick < 3; ++thick) marked.insert({i, 25 + thick});
+  }
+  SurfaceField field;
+  field.start(square(), 0.05, 0.0);
+  for (const auto& [column, row] : marked) field.mark((column + 0.5) * 0.05, (row + 0.5) * 0.05);
+  field.finish();
+  for (int column = -40; column < 40; ++column)
+    for (int row = -40; row < 40; ++row) {
+      const Surface* found = field.near((column + 0.5) * 0.05, (row + 0.5) * 0.05);
+      const auto [x, y] = nearestOf(marked, column, row);
+      ASSERT_EQ(found == nullptr, std::isnan(x)) << column << " " << row;
+      if (found != nullptr) {
+        ASSERT_EQ(found, field.near(x, y)) << column << " " << row;
+      }
+    }
+}
+
 TEST(SurfaceField, IsAsCoarseAsTheWorldSays) {
   SurfaceField field;
   field.start(square(0.015), 0.05, 0.1);
@@ -128,6 +172,9 @@ TEST(SurfaceField, IsTheSameFromAFile) {
     EXPECT_EQ(ours->normalX, theirs->normalX);
     EXPECT_EQ(ours->across, theirs->across);
   }
+  const std::shared_ptr<const SurfaceField> shared = SurfaceField::of(file, "a.");
+  EXPECT_EQ(shared->near(0.1, 0.2)->x, field.near(0.1, 0.2)->x);
+  EXPECT_EQ(SurfaceField::of(file, "a."), shared) << "it is made once";
   read.load(file, "other.");  // of a version that had none
   EXPECT_TRUE(read.isEmpty());
   EXPECT_EQ(read.near(0.1, 0.2), nullptr);

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 
 #include "Files.hpp"
 #include "MendedFiles.hpp"
@@ -111,6 +113,24 @@ TEST(TableFile, IsReadAfterSomethingElseHasFailed) {
   writeExample(folder / "t.npz");
   errno = EIO;
   EXPECT_TRUE(isExample(TableFile(folder / "t.npz")));
+}
+
+TEST(TableFile, KeepsWhatIsMadeOfItForAllWhoAskByTheSameName) {
+  const TemporaryFolder folder;
+  writeExample(folder / "t.npz");
+  const TableFile file(folder / "t.npz");
+  int made = 0;
+  const auto ask = [&](const char* name) {
+    return file.shared<int>(name, [&] { return std::make_shared<int>(++made); });
+  };
+  EXPECT_THROW(
+      file.shared<int>("a", []() -> std::shared_ptr<int> { throw std::runtime_error("no such"); }),
+      std::runtime_error);
+  const std::shared_ptr<const int> a = ask("a");
+  EXPECT_EQ(*a, 1);
+  EXPECT_EQ(ask("a"), a);
+  EXPECT_EQ(*ask("b"), 2);
+  EXPECT_EQ(made, 2);
 }
 
 TEST(TableFile, SaysWhichTableIsMissingOrOther) {

@@ -101,6 +101,7 @@ const Parameters::Node* Parameters::look(const std::string& key) const {
 
 void Parameters::survey() { table_->isSurveyed = true; }
 
+/// Callers make texts for a question only if it is surveyed, as most tables are not.
 void Parameters::note(const std::string& key, Question question) const {
   if (!table_->isSurveyed) return;
   const auto [there, isNew] = table_->questions.try_emplace(key, question);
@@ -180,7 +181,8 @@ double Parameters::number(const std::string& key, const Range& range) const {
 }
 
 double Parameters::numberOr(const std::string& key, double fallback, const Range& range) const {
-  note(key, {.kind = Question::Kind::kNumber, .range = range, .fallback = toText(fallback)});
+  if (table_->isSurveyed)
+    note(key, {.kind = Question::Kind::kNumber, .range = range, .fallback = toText(fallback)});
   const Node* node = look(key);
   return node == nullptr ? fallback : toNumber(key, *node, range);
 }
@@ -196,8 +198,9 @@ std::int64_t Parameters::integer(const std::string& key, const Range& range) con
 
 std::int64_t Parameters::integerOr(const std::string& key, std::int64_t fallback,
                                    const Range& range) const {
-  note(key,
-       {.kind = Question::Kind::kInteger, .range = range, .fallback = std::to_string(fallback)});
+  if (table_->isSurveyed)
+    note(key,
+         {.kind = Question::Kind::kInteger, .range = range, .fallback = std::to_string(fallback)});
   return look(key) == nullptr ? fallback : integer(key, range);
 }
 
@@ -210,13 +213,14 @@ std::string Parameters::text(const std::string& key) const {
 }
 
 std::string Parameters::textOr(const std::string& key, const std::string& fallback) const {
-  note(key, {.kind = Question::Kind::kText, .fallback = quoted(fallback)});
+  if (table_->isSurveyed) note(key, {.kind = Question::Kind::kText, .fallback = quoted(fallback)});
   return look(key) == nullptr ? fallback : text(key);
 }
 
 std::string Parameters::choiceOr(const std::string& key, const std::string& fallback,
                                  const std::vector<std::string>& choices) const {
-  note(key, {.kind = Question::Kind::kText, .choices = choices, .fallback = quoted(fallback)});
+  if (table_->isSurveyed)
+    note(key, {.kind = Question::Kind::kText, .choices = choices, .fallback = quoted(fallback)});
   const std::string value = textOr(key, fallback);
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
     std::string list;
@@ -255,10 +259,11 @@ std::vector<double> Parameters::numbers(const std::string& key, int count,
 std::vector<double> Parameters::numbersOr(const std::string& key,
                                           const std::vector<double>& fallback, int count,
                                           const Range& range) const {
-  note(key, {.kind = Question::Kind::kNumbers,
-             .range = range,
-             .count = count,
-             .fallback = listOf(fallback, [](double value) { return toText(value); })});
+  if (table_->isSurveyed)
+    note(key, {.kind = Question::Kind::kNumbers,
+               .range = range,
+               .count = count,
+               .fallback = listOf(fallback, [](double value) { return toText(value); })});
   return look(key) == nullptr ? fallback : numbers(key, count, range);
 }
 

@@ -65,12 +65,12 @@ class CellWeigher final : public Weigher, public Polishable, public Correctable 
     TableWeigher weigher(table_->cells().grid());
     forEachPoseBlock<TableWeigher::kBlock>(
         poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-          float* out = logProbability.data() + first;
-          weigher.start(sensor, n);
+          weigher.start(sensor, n, logProbability.data() + first);
           if constexpr (kIsBearing)
-            weigher.addBearing(*table_, *gaussian_, reading, perSigma, out);
+            weigher.addBearing(*table_, *gaussian_, reading, perSigma);
           else
-            weigher.addDistance(*table_, *gaussian_, reading, perSigma, out);
+            weigher.addDistance(*table_, *gaussian_, reading, perSigma);
+          weigher.finish();
         });
   }
 

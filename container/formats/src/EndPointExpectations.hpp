@@ -34,6 +34,7 @@ class EndPointExpectations : public Expectations {
  private:
   Config config_;
   std::shared_ptr<EndPointTables> tables_;
+  std::shared_ptr<SurfaceField> marked_;  ///< the surfaces of tables_ while they are learned
 };
 
 }  // namespace ortung

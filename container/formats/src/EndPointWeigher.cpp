@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "CellLookup.hpp"
+#include "PointSums.hpp"
+#include "ortung/base/FastMath.hpp"
 #include "ortung/base/Widest.hpp"
 
 namespace ortung {
@@ -15,13 +17,22 @@ constexpr std::size_t kBlurredPoints = 64;  ///< most points of a blurred readin
 
 constexpr double kStepsAnOctave = 4.0;  ///< steps of noise per doubling of it
 
-/// Finds the cells of points in the frame of a robot at (x, y).
-struct EndCells {
-  ORTUNG_INLINE static void run(CellLookup lookup, float x, float y, float sine, float cosine,
-                                const float* px, const float* py, std::size_t n,
-                                std::int32_t* cells) {
-    for (std::size_t k = 0; k < n; ++k)
-      cells[k] = lookup.index(x + cosine * px[k] - sine * py[k], y + sine * px[k] + cosine * py[k]);
+/// Finds sine and cosine of headings, and whether the sensor is in the region.
+struct Placements {
+  std::array<float, PlacingPoses::kBlock> sine;
+  std::array<float, PlacingPoses::kBlock> cosine;
+  std::array<std::int32_t, PlacingPoses::kBlock> cell;  ///< -1: outside
+
+  ORTUNG_INLINE static void run(Placements* found, CellLookup region, const float* x,
+                                const float* y, const float* theta, float mountX, float mountY,
+                                std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto [sine, cosine] = sinCos(theta[i]);
+      found->sine[i] = sine;
+      found->cosine[i] = cosine;
+      found->cell[i] = region.index(x[i] + cosine * mountX - sine * mountY,
+                                    y[i] + sine * mountX + cosine * mountY);
+    }
   }
 };
 
@@ -31,6 +42,7 @@ void EndPointTables::complete(const SensorModel& model, double greatestRange) {
   maxRange = greatestRange;
   model_ = model;
   floor = static_cast<float>(model.logFloor());
+  framed_ = FramedLevels(field);
   for (std::size_t c = 0; c < kRangeClasses; ++c) {
     const double range = (static_cast<double>(c) + 0.5) / kRangeClasses * maxRange;
     logByLevel_[c] = logByLevelOf(sigmaAt(range), 1.0);
@@ -116,49 +128,34 @@ double EndPointWeigher::logProbabilityAt(const Pose2& pose) const {
 }
 
 void EndPointWeigher::weigh(const SampleView& poses, std::span<float> logProbability) const {
-  const EndPointField& field = tables_->field;
-  const CellLookup inRegion(tables_->region);
-  const CellLookup lookup(field.grid());
-  const std::uint8_t* levels = field.levels().data();
-  const std::size_t count = endX_.size();
-  const float floor = floor_;
+  const CellLookup region(tables_->region);
   const auto mountX = static_cast<float>(mount_.x);
   const auto mountY = static_cast<float>(mount_.y);
-  constexpr std::size_t kPointsABlock = 64;
-  std::array<std::int32_t, kPointsABlock> cells;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const float x = poses.x[i];
-    const float y = poses.y[i];
-    const auto [sine, cosine] = sinCos(poses.theta[i]);
-    if (inRegion.index(x + cosine * mountX - sine * mountY, y + sine * mountX + cosine * mountY) <
-        0) {
-      logProbability[i] += floor * static_cast<float>(count);
-      continue;
-    }
-    // Four sums, so that additions need not wait for each other.
-    float sum0 = 0.0F;
-    float sum1 = 0.0F;
-    float sum2 = 0.0F;
-    float sum3 = 0.0F;
-    for (std::size_t begin = 0; begin < count; begin += kPointsABlock) {
-      const std::size_t n = std::min(kPointsABlock, count - begin);
-      const float* px = endX_.data() + begin;
-      const float* py = endY_.data() + begin;
-      runWidest<EndCells>(lookup, x, y, sine, cosine, px, py, n, cells.data());
-      const float* const* logByLevel = endLog_.data() + begin;
-      const auto at = [&](std::size_t k) {
-        return cells[k] < 0 ? floor : logByLevel[k][levels[cells[k]]];
-      };
-      std::size_t k = 0;
-      for (; k + 4 <= n; k += 4) {
-        sum0 += at(k);
-        sum1 += at(k + 1);
-        sum2 += at(k + 2);
-        sum3 += at(k + 3);
+  const float outside = floor_ * static_cast<float>(endX_.size());
+  PointSums sums(tables_->framed(), endX_, endY_, endLog_);
+  Placements found;
+  PlacingPoses inside;
+  std::array<std::size_t, PlacingPoses::kBlock> sampleOf;
+  for (std::size_t first = 0; first < poses.size(); first += PlacingPoses::kBlock) {
+    const std::size_t n = std::min(PlacingPoses::kBlock, poses.size() - first);
+    const float* x = poses.x.data() + first;
+    const float* y = poses.y.data() + first;
+    runWidest<Placements>(&found, region, x, y, poses.theta.data() + first, mountX, mountY, n);
+    inside.size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (found.cell[i] < 0) {
+        logProbability[first + i] += outside;
+        continue;
       }
-      for (; k < n; ++k) sum0 += at(k);
+      const std::size_t k = inside.size++;
+      inside.x[k] = x[i];
+      inside.y[k] = y[i];
+      inside.sine[k] = found.sine[i];
+      inside.cosine[k] = found.cosine[i];
+      sampleOf[k] = first + i;
     }
-    logProbability[i] += (sum0 + sum1) + (sum2 + sum3);
+    const PointSums::Sums ofInside = sums.of(inside);
+    for (std::size_t k = 0; k < inside.size; ++k) logProbability[sampleOf[k]] += ofInside[k];
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "FramedLevels.hpp"
 #include "ScanTrace.hpp"
 #include "SurfaceFit.hpp"
 #include "ortung/base/Pose2.hpp"
@@ -26,7 +27,7 @@ struct EndPointTables {
   FieldGrid region;     ///< cells in which the sensor may be
   EndPointField field;  ///< distances to the places where points should lie
   /// The same, finer than cells; empty: nobody learned it.
-  std::shared_ptr<SurfaceField> surfaces = std::make_shared<SurfaceField>();
+  std::shared_ptr<const SurfaceField> surfaces = std::make_shared<SurfaceField>();
   double maxRange = 1.0;  ///< greatest range of points [m]; their sigma grows with range
   float floor = 0.0F;     ///< ln p of a point that fits nowhere
 
@@ -34,6 +35,8 @@ struct EndPointTables {
   void complete(const SensorModel& model, double greatestRange);
   /// ln p by level of the field, of points at a range [m].
   const float* logByLevel(double range) const;
+  /// The field's levels, for loops over points; once it is complete.
+  const FramedLevels& framed() const { return framed_; }
   const SensorModel& model() const { return model_; }
   /// Standard deviation of where points at a range [m] are [m].
   double sigmaAt(double range) const;
@@ -43,6 +46,7 @@ struct EndPointTables {
  private:
   static constexpr std::size_t kRangeClasses = 8;
   SensorModel model_;
+  FramedLevels framed_;
   std::array<LogByLevel, kRangeClasses> logByLevel_{};
 };
 

@@ -24,6 +24,12 @@ LandmarkExpectations::Tables::Tables(const LandmarksData::Config& config) {
     landmarks.push_back({PositionTable(config.maxRange), {}});
 }
 
+void LandmarkExpectations::Tables::complete() {
+  std::vector<LandmarkLevels::Tables> tables;
+  for (const Landmark& landmark : landmarks) tables.push_back({landmark.range, landmark.bearing});
+  levels = LandmarkLevels(tables);
+}
+
 class LandmarkExpectations::Sight final : public Weigher, public Polishable, public Correctable {
  public:
   Sight(std::shared_ptr<const Model> model, std::shared_ptr<const Tables> tables,
@@ -31,13 +37,14 @@ class LandmarkExpectations::Sight final : public Weigher, public Polishable, pub
       : model_(std::move(model)), tables_(std::move(tables)), mount_(mount) {}
 
   void add(std::size_t index, const LandmarksData::Sighting& sighting) {
-    known_.push_back({&tables_->landmarks[index], sighting.range, sighting.bearing,
+    known_.push_back({index, &tables_->landmarks[index], sighting.range, sighting.bearing,
                       model_->range.sigmaAt(sighting.range)});
   }
   bool isEmpty() const { return known_.empty(); }
 
  private:
   struct Known {
+    std::size_t index;  ///< of the landmark
     const Tables::Landmark* landmark;
     double range;    ///< [m]
     double bearing;  ///< [rad]
@@ -65,20 +72,32 @@ class LandmarkExpectations::Sight final : public Weigher, public Polishable, pub
   }
 
   void weigh(const SampleView& poses, std::span<float> logProbability) const override {
-    const auto perBearingSigma = static_cast<float>(1.0 / model_->bearing.sigma);
+    const bool isList = !tables_->levels.isEmpty();
     TableWeigher weigher(tables_->landmarks.front().range.cells().grid());
     forEachPoseBlock<TableWeigher::kBlock>(
         poses, mount_, [&](std::size_t first, const SensorPoses& sensor, std::size_t n) {
-          float* out = logProbability.data() + first;
-          weigher.start(sensor, n);
-          for (const Known& k : known_) {
-            weigher.addDistance(k.landmark->range, model_->ranges, static_cast<float>(k.range),
-                                static_cast<float>(1.0 / k.sigma), out);
-            weigher.addBearing(k.landmark->bearing, model_->bearings, static_cast<float>(k.bearing),
-                               perBearingSigma, out);
-          }
+          weigher.start(sensor, n, logProbability.data() + first,
+                        isList ? &tables_->levels : nullptr);
+          for (const Known& k : known_) isList ? addFromList(weigher, k) : addByTables(weigher, k);
+          weigher.finish();
         });
   }
+
+  void addFromList(TableWeigher& weigher, const Known& k) const {
+    weigher.addLandmark(
+        k.index, static_cast<float>(k.landmark->range.metresPerLevel()),
+        {model_->ranges, static_cast<float>(k.range), perSigma(k.sigma)},
+        {model_->bearings, static_cast<float>(k.bearing), perSigma(model_->bearing.sigma)});
+  }
+
+  void addByTables(TableWeigher& weigher, const Known& k) const {
+    weigher.addDistance(k.landmark->range, model_->ranges, static_cast<float>(k.range),
+                        perSigma(k.sigma));
+    weigher.addBearing(k.landmark->bearing, model_->bearings, static_cast<float>(k.bearing),
+                       perSigma(model_->bearing.sigma));
+  }
+
+  static float perSigma(double sigma) { return static_cast<float>(1.0 / sigma); }
 
   Slope slopeAt(const Pose2& robot) const override {
     const Pose2 sensor = robot * mount_;
@@ -168,7 +187,10 @@ void LandmarkExpectations::learn(const Pose2& sensor) {
 }
 
 void LandmarkExpectations::finish() {
-  if (!landmarks_.config().identified) tables_->places->finish();
+  if (landmarks_.config().identified)
+    tables_->complete();
+  else
+    tables_->places->finish();
 }
 
 void LandmarkExpectations::save(TableWriter& file, const std::string& prefix) const {
@@ -191,6 +213,7 @@ void LandmarkExpectations::load(const std::shared_ptr<const TableFile>& file,
     tables->landmarks[i].range.cells().load(file, name + ".distance", grid);
     tables->landmarks[i].bearing.cells().load(file, name + ".direction", grid);
   }
+  tables->complete();
   tables_ = std::move(tables);
 }
 

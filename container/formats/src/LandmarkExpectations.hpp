@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Expectations.hpp"
+#include "LandmarkLevels.hpp"
 #include "LandmarkPlaces.hpp"
 #include "UnidentifiedSight.hpp"
 #include "ortung/formats/LandmarksData.hpp"
@@ -50,6 +51,9 @@ class LandmarkExpectations final : public Expectations {
     explicit Tables(const LandmarksData::Config& config);
     /// Tables in the order of the identities; empty if unidentified.
     std::vector<Landmark> landmarks;
+    /// The same in the order in which they are looked up, once they are complete.
+    LandmarkLevels levels;
+    void complete();
     std::shared_ptr<LandmarkPlaces> places = std::make_shared<LandmarkPlaces>();
   };
   class Sight;  ///< the weigher of landmarks that can be told apart

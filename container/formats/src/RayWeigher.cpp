@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "CellLookup.hpp"
+#include "DifferenceKernel.hpp"
 #include "DirectionCorners.hpp"
 #include "LevelDifference.hpp"
 #include "ortung/base/Angles.hpp"
@@ -228,6 +229,7 @@ void RayWeigher::weighBetweenCells(const SampleView& poses, std::span<float> log
   static_assert(kScanBlock % LevelDifferences::kBlock == 0);
   static_assert(kScanBlock <= DirectionTable::kSlack);  // what padding reads behind a row
   const ScanReading reading{levels_, caps_, steps_, shift_, costs_};
+  const DifferenceKernel differ = differenceKernel();
   const ScanCostKernel kernel = scanCostKernel();
   const float floor = nats_ * static_cast<float>(floorCost_);
   const std::int32_t last = rays_->directions() - 1;
@@ -242,8 +244,7 @@ void RayWeigher::weighBetweenCells(const SampleView& poses, std::span<float> log
   const auto add = [&](BlockAround& block) {
     for (std::size_t k = 0; k < block.size; ++k) {
       if (block.isLast[k]) wrapped.wrap(block.levels[k]);
-      runWidest<LevelDifferences>(std::as_const(block.levels).data() + k, parts_.data(), whole,
-                                  differences.data() + k * padded);
+      differ(block.levels[k], parts_.data(), whole, differences.data() + k * padded);
     }
     std::array<std::uint32_t, kSamplesABlock> costs;
     kernel(reading, {rows.data(), block.size}, costs.data());

@@ -96,7 +96,7 @@ class ScanRays final : public Expectations {
   void start(const FieldRegion& region, double headingStep) override;
   void learn(const Pose2& sensor) override;
   void finish() override {
-    surfaces_->finish();
+    sweep_.surfaces->finish();
     rays_->finish();
     sweep_ = {};
   }
@@ -116,21 +116,23 @@ class ScanRays final : public Expectations {
     FieldGrid grid;
     /// Says for each cell of the grid whether the scan from there marks surfaces.
     std::vector<bool> showsSurfaces;
+    std::shared_ptr<SurfaceField> surfaces;  ///< the same as surfaces_
   };
   bool showsSurfaces(const Pose2& sensor) const;
 
   const ScanData& scan_;
   RangeScale scale_;
   std::shared_ptr<DirectionTable> rays_ = std::make_shared<DirectionTable>();
-  std::shared_ptr<SurfaceField> surfaces_ = std::make_shared<SurfaceField>();
+  std::shared_ptr<const SurfaceField> surfaces_ = std::make_shared<SurfaceField>();
   int views_ = 0;  ///< headings a turn of the sweep; 0: not known yet
   Sweep sweep_;
 };
 
 void ScanRays::start(const FieldRegion& region, double headingStep) {
   const ScanData::Config& config = scan_.config();
-  surfaces_ = std::make_shared<SurfaceField>();
-  surfaces_->start(region, config.endPointCell, marginOf(config));
+  sweep_.surfaces = std::make_shared<SurfaceField>();
+  sweep_.surfaces->start(region, config.endPointCell, marginOf(config));
+  surfaces_ = sweep_.surfaces;
   const int directions = std::max(1, static_cast<int>(std::lround(kTurn / headingStep)));
   rays_ = std::make_shared<DirectionTable>();
   rays_->start(region, directions, runLength(config, directions));
@@ -164,14 +166,13 @@ void ScanRays::learn(const Pose2& sensor) {
     const std::size_t word = std::min<std::size_t>(words[i], sweep_.levelOfWord.size() - 1);
     rays_->learn(sensor.x, sensor.y, angle, sweep_.levelOfWord[word]);
     if (marks && std::isfinite(range))
-      surfaces_->mark(sensor.x + range * std::cos(angle), sensor.y + range * std::sin(angle));
+      sweep_.surfaces->mark(sensor.x + range * std::cos(angle), sensor.y + range * std::sin(angle));
   }
 }
 
 void ScanRays::load(const std::shared_ptr<const TableFile>& file, const std::string& prefix,
                     const FieldGrid& grid) {
-  auto surfaces = std::make_shared<SurfaceField>();
-  surfaces->load(file, prefix);
+  auto surfaces = SurfaceField::of(file, prefix);
   auto rays = std::make_shared<DirectionTable>();
   rays->load(file, prefix, grid,
              [this](int directions) { return runLength(scan_.config(), directions); });

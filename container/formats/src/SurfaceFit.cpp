@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "TableSlope.hpp"
+#include "ortung/base/FastMath.hpp"
+#include "ortung/base/Widest.hpp"
 
 namespace ortung {
 namespace {
@@ -18,11 +19,11 @@ constexpr double kLeastSlant = 0.15;
 constexpr double kSupposed = 10.0;
 constexpr double kMostAlike = 0.95;
 constexpr int kScatterSteps = 4;
-constexpr double kLeastScatter = 0.01;  ///< least scatter, as a share of the model's variance
+constexpr double kLeastScatter = 0.01;    ///< least scatter, as a share of the model's variance
+constexpr float kLeastOutliers = 1e-30F;  ///< share of outliers below which it counts as none
 
-constexpr double kShortest = 1e-6;  ///< least length of a beam by which is divided [m]
-constexpr double kStep = 2.0;       ///< distance between places where a beam is followed [cells]
-constexpr double kGrazes = 0.2;     ///< least sine between a beam and a line that it crosses
+constexpr double kStep = 2.0;    ///< distance between places where a beam is followed [cells]
+constexpr double kGrazes = 0.2;  ///< least sine between a beam and a line that it crosses
 /// Greatest distance between where a beam crosses a line and the mean of its cell's ends [cells].
 constexpr double kWithin = 1.0;
 
@@ -44,8 +45,10 @@ double crossing(const Surface& surface, const Beam& beam, double cell) {
   const double slant = nx * beam.c + ny * beam.s;
   if (surface.along >= 0.0F || std::abs(slant) < kGrazes) return kNaN;
   const double range = (nx * dx + ny * dy) / slant;
-  const double off = std::hypot(range * beam.c - dx, range * beam.s - dy);
-  return off < kWithin * cell ? range : kNaN;
+  const double offX = range * beam.c - dx;
+  const double offY = range * beam.s - dy;
+  const double within = kWithin * cell;
+  return offX * offX + offY * offY < within * within ? range : kNaN;
 }
 
 /// Returns the surface that a beam shows, or null if none is near its end. This is the nearest one
@@ -65,48 +68,87 @@ const Surface* shownBy(const SurfaceField& surfaces, const Beam& beam) {
   return found;
 }
 
-/// One residual, in standard deviations of the model.
-struct Residual {
-  double off;
-  double variance;  ///< variance by the model [m^2]
-  std::array<double, 3> expectation;
-  bool follows;  ///< its beam is next to that of the one before
+/// Computes inlierShare() in single precision, without branches and calls, so that the compiler
+/// vectorizes it.
+struct InlierShares {
+  /// @param squares squared residuals [variances of the model] @param variance of those that are no
+  /// outliers, in the same unit
+  ORTUNG_INLINE static void run(const float* squares, float variance, float outliers, float* shares,
+                                std::size_t n) {
+    const float halfPrecision = -0.5F / variance;
+    for (std::size_t k = 0; k < n; ++k) {
+      const float inlier = (1.0F - outliers) * powerOfE(halfPrecision * squares[k]);
+      shares[k] = inlier / (inlier + outliers);
+    }
+  }
+};
+
+/// The residuals of a scan, in standard deviations of the model: a row of each for every quantity.
+struct Residuals {
+  /// One of them with its derivatives by the robot's x, y, theta.
+  struct One {
+    double off;
+    std::array<double, 3> expectation;
+    bool follows;  ///< its beam is next to that of the one before
+  };
+  std::vector<One> all;
+  std::vector<float> squares;
+  std::vector<float> shares;  ///< how probably each is no outlier
+
+  explicit Residuals(std::size_t most) {
+    all.reserve(most);
+    squares.reserve(most);
+  }
+  void add(double off, double sigma, const std::array<double, 3>& by, bool follows) {
+    const double one = off / sigma;
+    all.push_back({one, {by[0] / sigma, by[1] / sigma, by[2] / sigma}, follows});
+    squares.push_back(static_cast<float>(one * one));
+  }
+  void judge(double variance, double outliers) {
+    shares.resize(squares.size());
+    runWidest<InlierShares>(squares.data(), static_cast<float>(variance),
+                            std::max(static_cast<float>(outliers), kLeastOutliers), shares.data(),
+                            squares.size());
+  }
 };
 
 /// Returns the variance of residuals that are no outliers, in variances of the model, by
 /// expectation maximization from the model's.
-double scatterOf(const std::vector<Residual>& residuals, double outliers) {
+double scatterOf(Residuals& residuals, double outliers) {
   double variance = 1.0;
   for (int k = 0; k < kScatterSteps; ++k) {
+    residuals.judge(variance, outliers);
     double count = kSupposed;
     double squares = kSupposed * variance;
-    for (const Residual& r : residuals) {
-      const double weight = inlierShare(outliers, r.off / std::sqrt(variance));
-      count += weight;
-      squares += weight * r.off * r.off;
+    for (std::size_t i = 0; i < residuals.all.size(); ++i) {
+      const auto share = static_cast<double>(residuals.shares[i]);
+      count += share;
+      squares += share * static_cast<double>(residuals.squares[i]);
     }
     variance = std::clamp(squares / count, kLeastScatter, 1.0);
   }
   return variance;
 }
 
-Slope slopeOf(const std::vector<Residual>& residuals, double outliers) {
+Slope slopeOf(Residuals& residuals, double outliers) {
   const double scatter = scatterOf(residuals, outliers);
+  residuals.judge(scatter, outliers);
   Slope slope;
   double products = 0.0;
   double pairs = 1e-9;
-  double lastWeight = 0.0;
+  double lastShare = 0.0;
   double last = 0.0;
-  for (const Residual& r : residuals) {
-    const double weight = inlierShare(outliers, r.off / std::sqrt(scatter));
-    slope.add(r.off * std::sqrt(r.variance), r.expectation, weight / (r.variance * scatter));
+  for (std::size_t i = 0; i < residuals.all.size(); ++i) {
+    const Residuals::One& r = residuals.all[i];
+    const auto share = static_cast<double>(residuals.shares[i]);
+    slope.add(r.off, r.expectation, share / scatter);
     if (r.follows) {
-      const double both = std::min(weight, lastWeight);
+      const double both = std::min(share, lastShare);
       products += both * r.off * last;
       pairs += 0.5 * both * (r.off * r.off + last * last);
     }
     last = r.off;
-    lastWeight = weight;
+    lastShare = share;
   }
   const double alike = std::clamp(products / pairs, 0.0, kMostAlike);
   Slope worth;
@@ -117,58 +159,53 @@ Slope slopeOf(const std::vector<Residual>& residuals, double outliers) {
 }  // namespace
 
 void SurfaceFit::add(double range, double bearing) {
-  const Pose2 end = mount_ * Pose2{range * std::cos(bearing), range * std::sin(bearing), 0.0};
-  ends_.push_back({end.x, end.y, range});
+  const double c = std::cos(mount_.theta + bearing);
+  const double s = std::sin(mount_.theta + bearing);
+  const double sigma = model_.sigmaAt(range);
+  ends_.push_back({mount_.x + range * c, mount_.y + range * s, c, s, range, sigma * sigma});
 }
 
 Slope SurfaceFit::slopeAt(const Pose2& robot) const {
   if (isEmpty()) return {};
-  std::vector<Residual> residuals;
-  residuals.reserve(2 * ends_.size());
+  Residuals residuals(2 * ends_.size());
   const double c = std::cos(robot.theta);
   const double s = std::sin(robot.theta);
   const Pose2 sensor = robot * mount_;
   bool follows = false;
+  double levers = 0.0;  // sum of squares
   for (const End& end : ends_) {
     const double dx = c * end.x - s * end.y;  // from the robot, in the field's directions
     const double dy = s * end.x + c * end.y;
-    const double x = robot.x + dx;
-    const double y = robot.y + dy;
-    const double bx = x - sensor.x;
-    const double by = y - sensor.y;
-    const double length = std::max(end.range, kShortest);
-    const Surface* surface =
-        shownBy(*surfaces_, {sensor.x, sensor.y, bx / length, by / length, end.range});
+    const Beam beam{sensor.x, sensor.y, c * end.c - s * end.s, s * end.c + c * end.s, end.range};
+    const Surface* surface = shownBy(*surfaces_, beam);
     if (surface == nullptr) {
       follows = false;
       continue;
     }
-    const double sigma = model_.sigmaAt(end.range);
+    const double offX = static_cast<double>(surface->x) - robot.x - dx;
+    const double offY = static_cast<double>(surface->y) - robot.y - dy;
     const auto take = [&](double nx, double ny, double variance) {
-      const double off =
-          nx * (static_cast<double>(surface->x) - x) + ny * (static_cast<double>(surface->y) - y);
-      residuals.push_back(
-          {off / std::sqrt(variance), variance, {nx, ny, ny * dx - nx * dy}, follows});
+      const double lever = ny * dx - nx * dy;
+      levers += lever * lever;
+      residuals.add(nx * offX + ny * offY, std::sqrt(variance), {nx, ny, lever}, follows);
     };
     const auto nx = static_cast<double>(surface->normalX);
     const auto ny = static_cast<double>(surface->normalY);
     const auto across = static_cast<double>(surface->across);
     if (surface->along < 0.0F) {
-      const double slant = std::max(kLeastSlant, std::abs(nx * bx + ny * by) / length);
-      take(nx, ny, sigma * sigma * slant * slant + across * across);
+      const double slant = std::max(kLeastSlant, std::abs(nx * beam.c + ny * beam.s));
+      take(nx, ny, end.variance * slant * slant + across * across);
       follows = true;
     } else {
       const auto along = static_cast<double>(surface->along);
       follows = false;
-      take(nx, ny, sigma * sigma + across * across);
-      take(-ny, nx, sigma * sigma + along * along);
+      take(nx, ny, end.variance + across * across);
+      take(-ny, nx, end.variance + along * along);
     }
   }
   Slope slope = slopeOf(residuals, model_.outliers);
   slope.blurMetres = surfaces_->sigma();
-  double squares = 0.0;
-  for (const Residual& r : residuals) squares += r.expectation[2] * r.expectation[2];
-  const double lever = std::sqrt(squares / (static_cast<double>(residuals.size()) + 1e-9));
+  const double lever = std::sqrt(levers / (static_cast<double>(residuals.all.size()) + 1e-9));
   slope.blurRadians = lever > 0.0 ? std::min(1.0, surfaces_->sigma() / lever) : 0.0;
   return slope;
 }

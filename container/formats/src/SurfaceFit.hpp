@@ -29,10 +29,14 @@ class ORTUNG_API SurfaceFit {
   Slope slopeAt(const Pose2& robot) const;
 
  private:
+  /// In the robot frame.
   struct End {
-    double x;      ///< x in the robot frame [m]
-    double y;      ///< [m]
-    double range;  ///< distance from the sensor [m]
+    double x;  ///< [m]
+    double y;  ///< [m]
+    double c;  ///< direction of its beam
+    double s;
+    double range;     ///< distance from the sensor [m]
+    double variance;  ///< of the range [m^2]
   };
   std::shared_ptr<const SurfaceField> surfaces_;
   Pose2 mount_;

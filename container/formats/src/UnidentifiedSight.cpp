@@ -7,6 +7,7 @@
 
 #include "CellLookup.hpp"
 #include "TableSlope.hpp"
+#include "ortung/base/FastMath.hpp"
 
 namespace ortung {
 namespace {

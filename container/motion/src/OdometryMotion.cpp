@@ -10,7 +10,7 @@
 #include "MotionFit.hpp"
 #include "ortung/base/Angles.hpp"
 #include "ortung/base/FastMath.hpp"
-#include "ortung/base/Random.hpp"
+#include "ortung/base/GaussianRows.hpp"
 #include "ortung/base/Widest.hpp"
 
 namespace ortung {
@@ -54,19 +54,22 @@ struct Step {
   float sigmaSideways;
 };
 
-/// Moves @p n samples by numbers of mean 0 and sigma 1, kNumbersASample each.
+/// Numbers of mean 0 and sigma 1: a row for each kind of noise, a column for each sample.
+using Noise = std::array<std::array<float, kBlock>, kNumbersASample>;
+
+/// Moves @p n samples.
 struct MoveAll {
-  ORTUNG_INLINE static void run(const Step& step, const float* noise, std::size_t n,
+  ORTUNG_INLINE static void run(const Step& step, const Noise* rows, std::size_t n,
                                 float* __restrict x, float* __restrict y, float* __restrict theta) {
+    const Noise& noise = *rows;
     for (std::size_t i = 0; i < n; ++i) {
-      const float* numbers = noise + i * kNumbersASample;
-      const float heading = theta[i] + step.turn1 + step.sigmaTurn1 * numbers[0];
-      const float way = step.way + step.sigmaWay * numbers[1];
-      const float sideways = step.sigmaSideways * numbers[3];
+      const float heading = theta[i] + step.turn1 + step.sigmaTurn1 * noise[0][i];
+      const float way = step.way + step.sigmaWay * noise[1][i];
+      const float sideways = step.sigmaSideways * noise[3][i];
       const SinCos direction = sinCos(heading);
       x[i] += way * direction.cos - sideways * direction.sin;
       y[i] += way * direction.sin + sideways * direction.cos;
-      theta[i] = heading + step.turn2 + step.sigmaTurn2 * numbers[2];
+      theta[i] = heading + step.turn2 + step.sigmaTurn2 * noise[2][i];
     }
   }
 };
@@ -79,12 +82,11 @@ OdometryNoise readNoise(const Parameters& motion) {
 }
 
 /// Enlarges the noise of a share of the samples, evenly picked.
-void slip(double share, std::uint64_t first, std::size_t n, float* noise) {
+void slip(double share, std::uint64_t first, std::size_t n, Noise& noise) {
   if (share <= 0.0) return;
   const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
-  for (std::uint64_t i = (period - first % period) % period; i < n; i += period) {
-    for (std::size_t k = 0; k < kNumbersASample; ++k) noise[i * kNumbersASample + k] *= kSlip;
-  }
+  for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
+    for (std::array<float, kBlock>& row : noise) row[i] *= kSlip;
 }
 
 /// Returns the sigma of a learned variance, or @p old if nothing was learned. A drive that is too
@@ -238,14 +240,14 @@ void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& od
                   sigmaWay,
                   sigmaSecond,
                   static_cast<float>(noise_.floorMetres)};
-  std::array<float, kBlock * kNumbersASample> noise;
+  Noise noise;
   for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, samples.x.size() - begin);
-    fillGaussian(seed, stream, (first + begin) * kNumbersASample,
-                 std::span(noise).first(count * kNumbersASample));
-    slip(noise_.slipShare, first + begin, count, noise.data());
-    runWidest<MoveAll>(step, noise.data(), count, samples.x.data() + begin,
-                       samples.y.data() + begin, samples.theta.data() + begin);
+    const auto row = [&](std::size_t k) { return std::span(noise[k]).first(count); };
+    fillGaussianRows(seed, stream, first + begin, {row(0), row(1), row(2), row(3)});
+    slip(noise_.slipShare, first + begin, count, noise);
+    runWidest<MoveAll, Step, const Noise*>(step, &noise, count, samples.x.data() + begin,
+                                           samples.y.data() + begin, samples.theta.data() + begin);
   }
 }
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "ortung/base/FastMath.hpp"
+#include "ortung/base/InstructionSet.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/base/SampleView.hpp"
 #include "ortung/tables/FieldRegion.hpp"
@@ -52,32 +51,30 @@ struct SensorPoses {
   const float* theta;  ///< [rad]
 };
 
+/// Finds the poses of sensors mounted at @p mount on robots.
+/// @param x, y, theta out, n of each
+void placeSensors(const SensorPoses& robots, const Pose2& mount, std::size_t n, float* x, float* y,
+                  float* theta);
+
 /// Calls visit(first, sensor, n) with the poses of a sensor mounted at @p mount for the samples
 /// [first, first + n), at most @p kBlock at a time.
 template <std::size_t kBlock, class Visit>
 void forEachPoseBlock(const SampleView& robots, const Pose2& mount, Visit visit) {
-  const auto mx = static_cast<float>(mount.x);
-  const auto my = static_cast<float>(mount.y);
-  const auto turn = static_cast<float>(mount.theta);
-  const bool atOrigin = mx == 0.0F && my == 0.0F && turn == 0.0F;
+  const bool atOrigin = static_cast<float>(mount.x) == 0.0F &&
+                        static_cast<float>(mount.y) == 0.0F &&
+                        static_cast<float>(mount.theta) == 0.0F;
   std::array<float, kBlock> x;
   std::array<float, kBlock> y;
   std::array<float, kBlock> theta;
   for (std::size_t first = 0; first < robots.size(); first += kBlock) {
     const std::size_t n = std::min(kBlock, robots.size() - first);
-    const float* rx = robots.x.data() + first;
-    const float* ry = robots.y.data() + first;
-    const float* rt = robots.theta.data() + first;
+    const SensorPoses block{robots.x.data() + first, robots.y.data() + first,
+                            robots.theta.data() + first};
     if (atOrigin) {
-      visit(first, SensorPoses{rx, ry, rt}, n);
+      visit(first, block, n);
       continue;
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const SinCos heading = sinCos(rt[i]);
-      x[i] = rx[i] + heading.cos * mx - heading.sin * my;
-      y[i] = ry[i] + heading.sin * mx + heading.cos * my;
-      theta[i] = rt[i] + turn;
-    }
+    placeSensors(block, mount, n, x.data(), y.data(), theta.data());
     visit(first, SensorPoses{x.data(), y.data(), theta.data()}, n);
   }
 }

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "CellCorners.hpp"
 #include "ortung/base/Angles.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/base/InstructionSet.hpp"
 #include "ortung/tables/DirectionTable.hpp"
 
@@ -39,31 +42,16 @@ ORTUNG_INLINE float withinTurn(float place, float turn) {
 
 /// Finds what a table by cell and direction knows around poses, a block of them at a time: it knows
 /// the centres of cells, in its directions.
-class DirectionCorners {
+class ORTUNG_API DirectionCorners {
  public:
-  static constexpr std::size_t kBlock = CellCorners::kBlock;
+  static constexpr std::size_t kBlock = 64;
 
   /// @param firstAngle of what is looked up, in the sensor's frame [rad]
   DirectionCorners(const DirectionTable& table, float firstAngle)
-      : table_(table),
-        corners_(table.grid()),
-        directions_(table.directions()),
-        perRadian_(static_cast<float>(table.directions() / kTurn)),
-        firstAngle_(firstAngle) {}
+      : table_(table), corners_(table.grid()), firstAngle_(firstAngle) {}
 
   /// @param n number of poses, at most kBlock
-  void start(const SensorPoses& poses, std::size_t n) {
-    corners_.start(poses, n);
-    const auto turn = static_cast<float>(directions_);
-    for (std::size_t k = 0; k < n; ++k) {  // vectorizes
-      const float within = withinTurn((poses.theta[k] + firstAngle_) * perRadian_, turn);
-      const auto before = static_cast<std::int32_t>(within);
-      const std::int32_t safe = before < directions_ ? before : directions_ - 1;
-      direction_[k] = safe;
-      const float share = within - static_cast<float>(safe);
-      shareTurn_[k] = share < 1.0F ? share : 1.0F;
-    }
-  }
+  void start(const SensorPoses& poses, std::size_t n);
 
   /// The direction before the pose's, in [0, directions).
   std::int32_t direction(std::size_t k) const { return direction_[k]; }
@@ -80,37 +68,29 @@ class DirectionCorners {
       const std::uint8_t* row = table_.rowOfCell(cells[c]);
       levels.rows[c] = (row == nullptr ? own : row) + direction_[k];
     }
-    setWeights(k, levels);
+    for (std::size_t w = 0; w < kWords; ++w)
+      std::memcpy(levels.weights.data() + w * kBytes, &weights_[w][k], kBytes);
     return true;
   }
 
  private:
-  /// Weights are rounded so that their sum stays whole.
-  void setWeights(std::size_t k, LevelsAround& levels) const {
-    const float x = corners_.shareX(k);
-    const float y = corners_.shareY(k);
-    const float next = shareTurn_[k];
-    const std::array<float, LevelsAround::kCells> cells = {(1 - x) * (1 - y), x * (1 - y),
-                                                           (1 - x) * y, x * y};
-    float sum = 0.0F;
-    int before = 0;
-    for (std::size_t i = 0; i < levels.weights.size(); ++i) {
-      sum += cells[i / 2] * (i % 2 == 0 ? 1 - next : next);
-      const int upTo = i + 1 == levels.weights.size()
-                           ? LevelsAround::kWhole
-                           : static_cast<int>(sum * LevelsAround::kWhole + 0.5F);
-      levels.weights[i] = static_cast<std::uint8_t>(upTo - before);
-      before = upTo;
-    }
-  }
+  static constexpr std::size_t kWeights = 2 * LevelsAround::kCells;
+  static constexpr std::size_t kBytes = sizeof(std::uint32_t);
+  static constexpr std::size_t kWords = kWeights / kBytes;
+  struct Start;
 
   const DirectionTable& table_;
   CellCorners corners_;
-  std::int32_t directions_;
-  float perRadian_;
   float firstAngle_;
   std::array<std::int32_t, kBlock> direction_;
-  std::array<float, kBlock> shareTurn_;
+  /// Returns how far a weight is shifted in its word, so that it lies in memory's order.
+  static constexpr std::size_t shiftOf(std::size_t weight) {
+    const std::size_t byte = weight % kBytes;
+    return 8 * (std::endian::native == std::endian::little ? byte : kBytes - 1 - byte);
+  }
+
+  /// As in LevelsAround, by pose: four weights a word.
+  std::array<std::array<std::uint32_t, kBlock>, kWords> weights_;
 };
 
 }  // namespace ortung

@@ -49,16 +49,20 @@ inline double rangeOfParts(const RangeScale& scale, std::int16_t parts) {
          share * scale.range(static_cast<std::uint8_t>(level + 1));
 }
 
-/// The levels around a pose, taken one by one. (An array of them would keep loops over beams from
-/// being vectorized.)
+/// What a table knows of one direction around a pose.
 class LevelMix {
  public:
+  LevelMix() = default;
+  /// @param sum of the levels, each times its weight; @param low, high least and greatest level
+  ORTUNG_INLINE LevelMix(std::int16_t sum, std::uint8_t low, std::uint8_t high)
+      : sum_(sum), low_(low), high_(high) {}
+
   ORTUNG_INLINE void add(std::int16_t level, std::int16_t weight) {
     sum_ = static_cast<std::int16_t>(sum_ + static_cast<std::int16_t>(level * weight));
     low_ = level < low_ ? level : low_;
     high_ = level > high_ ? level : high_;
   }
-  /// Returns how far a reading is from them: from their mean, or from the nearer one of two
+  /// Returns how far a reading is from the levels: from their mean, or from the nearer one of two
   /// surfaces. Both are in parts of a level.
   ORTUNG_INLINE std::int16_t differenceTo(std::int16_t reading) const {
     const auto off = static_cast<std::int16_t>(reading - mean());
@@ -68,16 +72,20 @@ class LevelMix {
     const std::int16_t within = overLow < underHigh ? overLow : underHigh;
     const auto beyond = static_cast<std::int16_t>(within - kAlongOneSurface * kPartsALevel);
     const std::int16_t between = beyond > 0 ? beyond : std::int16_t{0};
-    const auto ofTwo = within < 0 ? static_cast<std::int16_t>(-within) : between;
-    return isEdge() && ofTwo < ofOne ? ofTwo : ofOne;
+    const auto outside = static_cast<std::int16_t>(-within);
+    const std::int16_t ofTwo = outside > between ? outside : between;
+    const std::int16_t nearer = ofTwo < ofOne ? ofTwo : ofOne;
+    return isEdge() ? nearer : ofOne;
   }
   /// Their mean [parts of a level].
   ORTUNG_INLINE std::int16_t mean() const {
-    constexpr std::int16_t kDivisor = LevelsAround::kWhole / kPartsALevel;
-    return static_cast<std::int16_t>((sum_ + kDivisor / 2) / kDivisor);
+    constexpr std::uint16_t kDivisor = LevelsAround::kWhole / kPartsALevel;
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(sum_ + kDivisor / 2) / kDivisor);
   }
   /// Whether they are of different surfaces.
-  ORTUNG_INLINE bool isEdge() const { return high_ - low_ > kMostOnOneSurface; }
+  ORTUNG_INLINE bool isEdge() const {
+    return static_cast<std::int16_t>(high_ - low_) > kMostOnOneSurface;
+  }
   std::int16_t low() const { return low_; }
   std::int16_t high() const { return high_; }
 
@@ -116,32 +124,78 @@ inline std::optional<double> rangeBetween(const DirectionTable& table, const Ran
   return rangeOfParts(scale, mix.mean());
 }
 
-/// Differences of the beams of a scan from what is expected around a pose.
+/// The levels of four cells in consecutive directions: each direction's part of the sums is
+/// computed once, though it counts as the one before a beam and as the next one of the beam before.
+class DirectionSums {
+ public:
+  static constexpr std::size_t kBlock = 32;         ///< directions of one vectorized loop
+  static constexpr std::size_t kMost = 8 * kBlock;  ///< beams at a time
+
+  /// @param n number of beams from the rows' place @p first on, a multiple of kBlock
+  ORTUNG_INLINE void take(const LevelsAround& around, std::size_t first, std::size_t n) {
+    for (std::size_t block = 0; block < n; block += kBlock) takeSome<kBlock>(around, first, block);
+    takeSome<1>(around, first, n);
+  }
+  /// What is around the pose in the direction of beam @p k.
+  ORTUNG_INLINE LevelMix of(std::size_t k) const {
+    const std::uint8_t low = low_[k] < low_[k + 1] ? low_[k] : low_[k + 1];
+    const std::uint8_t high = high_[k] > high_[k + 1] ? high_[k] : high_[k + 1];
+    return {static_cast<std::int16_t>(before_[k] + next_[k + 1]), low, high};
+  }
+
+ private:
+  template <std::size_t kCount>
+  ORTUNG_INLINE void takeSome(const LevelsAround& around, std::size_t first, std::size_t at) {
+    const std::uint8_t* rowA = around.rows[0] + first + at;
+    const std::uint8_t* rowB = around.rows[1] + first + at;
+    const std::uint8_t* rowC = around.rows[2] + first + at;
+    const std::uint8_t* rowD = around.rows[3] + first + at;
+    const auto weight = [&](std::size_t i) { return std::int16_t{around.weights[i]}; };
+    const std::int16_t a0 = weight(0), a1 = weight(1), b0 = weight(2), b1 = weight(3);
+    const std::int16_t c0 = weight(4), c1 = weight(5), d0 = weight(6), d1 = weight(7);
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const std::uint8_t a = rowA[k];
+      const std::uint8_t b = rowB[k];
+      const std::uint8_t c = rowC[k];
+      const std::uint8_t d = rowD[k];
+      before_[at + k] = static_cast<std::int16_t>(a * a0 + b * b0 + c * c0 + d * d0);
+      next_[at + k] = static_cast<std::int16_t>(a * a1 + b * b1 + c * c1 + d * d1);
+      const std::uint8_t lowAB = a < b ? a : b;
+      const std::uint8_t lowCD = c < d ? c : d;
+      low_[at + k] = lowAB < lowCD ? lowAB : lowCD;
+      const std::uint8_t highAB = a > b ? a : b;
+      const std::uint8_t highCD = c > d ? c : d;
+      high_[at + k] = highAB > highCD ? highAB : highCD;
+    }
+  }
+
+  std::array<std::int16_t, kMost + 1> before_;  ///< levels times their weights as the one before
+  std::array<std::int16_t, kMost + 1> next_;
+  std::array<std::uint8_t, kMost + 1> low_;
+  std::array<std::uint8_t, kMost + 1> high_;
+};
+
+/// Differences of the beams of a scan from what is expected around a pose, by loops that compilers
+/// turn into vectors of any machine.
 struct LevelDifferences {
-  static constexpr std::size_t kBlock = 32;  ///< n is a multiple of it
+  static constexpr std::size_t kBlock = DirectionSums::kBlock;  ///< n is a multiple of it
   /// @param reading, differences one a beam [parts of a level], 255 at most
   /// @pre rows can be read for n + 1 entries
-  ORTUNG_INLINE static void run(const LevelsAround* around, const std::int16_t* reading,
+  ORTUNG_INLINE static void run(const LevelsAround& around, const std::int16_t* reading,
                                 std::size_t n, std::uint8_t* differences) {
-    const auto [a, b, c, d] = around->rows;
-    const auto [a0, a1, b0, b1, c0, c1, d0, d1] = around->weights;
-    for (std::size_t first = 0; first < n; first += kBlock) {
-      std::array<std::uint8_t, kBlock> block;  // shares no memory with what is read
-      for (std::size_t k = 0; k < kBlock; ++k) {
-        const std::size_t j = first + k;
-        LevelMix mix;
-        mix.add(a[j], a0);
-        mix.add(a[j + 1], a1);
-        mix.add(b[j], b0);
-        mix.add(b[j + 1], b1);
-        mix.add(c[j], c0);
-        mix.add(c[j + 1], c1);
-        mix.add(d[j], d0);
-        mix.add(d[j + 1], d1);
-        const std::int16_t difference = mix.differenceTo(reading[j]);
-        block[k] = static_cast<std::uint8_t>(difference < 255 ? difference : 255);
+    DirectionSums sums;
+    std::array<std::uint8_t, kBlock> found;  // shares no memory with what is read
+    for (std::size_t first = 0; first < n; first += DirectionSums::kMost) {
+      const std::size_t size = std::min(DirectionSums::kMost, n - first);
+      sums.take(around, first, size);
+      for (std::size_t begin = 0; begin < size; begin += kBlock) {
+        for (std::size_t k = 0; k < kBlock; ++k) {
+          const std::int16_t difference =
+              sums.of(begin + k).differenceTo(reading[first + begin + k]);
+          found[k] = static_cast<std::uint8_t>(difference < 255 ? difference : 255);
+        }
+        std::copy(found.begin(), found.end(), differences + first + begin);
       }
-      std::copy(block.begin(), block.end(), differences + first);
     }
   }
 };

@@ -1,110 +1,12 @@
 #include "ScanCost.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-
+#include "PortableScanCost.hpp"
 #ifdef ORTUNG_X86
 #include <immintrin.h>
 #endif
 
 namespace ortung {
 namespace {
-
-/// Returns the number of readings up to the last that counts: the rest need not be fetched.
-std::size_t usedLength(const ScanReading& reading) {
-  std::size_t n = reading.caps.size();
-  while (n > 0 && reading.caps[n - 1] == 0) --n;
-  return n;
-}
-
-std::uint8_t costOf(const ScanReading& reading, int difference, std::uint8_t cap, int step) {
-  const int steps = (std::abs(difference) * step + (1 << reading.shift) / 2) >> reading.shift;
-  const auto index =
-      static_cast<std::size_t>(std::min(steps, static_cast<int>(kLevelDifferences) - 1));
-  return std::min(reading.costs[index], cap);
-}
-
-int stepOf(const ScanReading& reading, std::size_t j) {
-  return reading.steps.empty() ? 1 << reading.shift : int{reading.steps[j]};
-}
-
-void addOneByOne(const ScanReading& reading, const std::uint8_t* row, std::size_t n,
-                 std::uint32_t& cost) {
-  for (std::size_t j = 0; j < n; ++j) {
-    cost +=
-        costOf(reading, int{row[j]} - int{reading.levels[j]}, reading.caps[j], stepOf(reading, j));
-  }
-}
-
-/// Costs by signed difference of levels, for each pair of cap and step that occurs: one lookup per
-/// reading, and no branch. Readings have two or three caps, and few steps.
-class CostTables {
- public:
-  explicit CostTables(const ScanReading& reading) : reading_(reading) {}
-
-  /// Returns the costs by expected level for reading @p j, or nullptr if there are too many kinds.
-  const std::uint8_t* byLevel(std::size_t j) {
-    const Kind kind{reading_.caps[j], stepOf(reading_, j)};
-    std::size_t i = 0;
-    while (i < count_ && kinds_[i] != kind) ++i;
-    if (i == kMost) return nullptr;
-    if (i == count_) make(kind);
-    return tables_[i].data() + kLevels - reading_.levels[j];
-  }
-
- private:
-  struct Kind {
-    std::uint8_t cap = 0;
-    int step = 0;
-    bool operator==(const Kind&) const = default;
-  };
-  static constexpr std::size_t kMost = 32;
-  static constexpr int kLevels = 256;
-
-  void make(const Kind& kind) {
-    std::array<std::uint8_t, 2 * kLevels>& table = tables_[count_];
-    for (int d = 0; d < kLevels; ++d) {
-      const std::uint8_t cost = costOf(reading_, d, kind.cap, kind.step);
-      table[static_cast<std::size_t>(kLevels + d)] = cost;
-      table[static_cast<std::size_t>(kLevels - d)] = cost;
-    }
-    table[0] = costOf(reading_, kLevels, kind.cap, kind.step);
-    kinds_[count_++] = kind;
-  }
-
-  const ScanReading& reading_;
-  std::size_t count_ = 0;
-  std::array<Kind, kMost> kinds_{};
-  std::array<std::array<std::uint8_t, 2 * kLevels>, kMost> tables_;
-};
-
-void portable(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
-              std::uint32_t* costs) {
-  constexpr std::size_t kWorthTables = 16;
-  constexpr std::size_t kPart = 512;  // readings whose tables are looked up at once
-  const std::size_t n = usedLength(reading);
-  std::fill_n(costs, rows.size(), 0U);
-  std::array<const std::uint8_t*, kPart> tables;
-  CostTables made(reading);
-  bool tabled = rows.size() >= kWorthTables;
-  for (std::size_t begin = 0; tabled && begin < n; begin += kPart) {
-    const std::size_t size = std::min(kPart, n - begin);
-    for (std::size_t j = 0; j < size; ++j) {
-      tables[j] = made.byLevel(begin + j);
-      tabled = tabled && tables[j] != nullptr;
-    }
-    for (std::size_t i = 0; tabled && i < rows.size(); ++i) {
-      const std::uint8_t* row = rows[i] + begin;
-      std::uint32_t sum = 0;
-      for (std::size_t j = 0; j < size; ++j) sum += tables[j][row[j]];
-      costs[i] += sum;
-    }
-  }
-  if (tabled) return;
-  std::fill_n(costs, rows.size(), 0U);
-  for (std::size_t i = 0; i < rows.size(); ++i) addOneByOne(reading, rows[i], n, costs[i]);
-}
 
 #ifdef ORTUNG_X86
 
@@ -217,8 +119,10 @@ ScanCostKernel scanCostKernel(InstructionSet set) {
 #ifdef ORTUNG_X86
   if (set == InstructionSet::kAvx2) return eitherOf<avx2<false>, avx2<true>>;
   if (set == InstructionSet::kAvx512) return eitherOf<avx512<false>, avx512<true>>;
+#elif defined(ORTUNG_NEON)
+  if (set == InstructionSet::kNeon) return scanCostNeon;
 #endif
-  return portable;
+  return portableScanCost;
 }
 
 ScanCostKernel scanCostKernel() { return scanCostKernel(instructionSet()); }

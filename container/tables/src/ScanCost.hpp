@@ -27,11 +27,24 @@ struct ScanReading {
 };
 inline constexpr int kMostShift = 9;  ///< products and half a unit have 15 bits
 
+/// Returns the number of readings up to the last that counts: the rest need not be fetched.
+inline std::size_t usedLength(const ScanReading& reading) {
+  std::size_t n = reading.caps.size();
+  while (n > 0 && reading.caps[n - 1] == 0) --n;
+  return n;
+}
+
 /// costs[i] = sum over beams j of min(caps[j], reading.costs[min(31, d_j)]), where d_j is
 /// |rows[i][j] - levels[j]|, times steps[j] / 2^shift and rounded to the nearest if there are
 /// steps. Rows must be readable for levels.size() bytes. All kernels give the same sums.
 using ScanCostKernel = void (*)(const ScanReading& reading,
                                 std::span<const std::uint8_t* const> rows, std::uint32_t* costs);
+
+#ifdef ORTUNG_NEON
+/// The kernel for NEON.
+void scanCostNeon(const ScanReading& reading, std::span<const std::uint8_t* const> rows,
+                  std::uint32_t* costs);
+#endif
 
 /// The kernel for an instruction set, or nullptr if this machine (or build) does not have it.
 ORTUNG_API ScanCostKernel scanCostKernel(InstructionSet set);

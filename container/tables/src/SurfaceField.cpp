@@ -1,7 +1,10 @@
 #include "ortung/tables/SurfaceField.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +24,57 @@ constexpr double kLineRatio = 0.45;  ///< greatest ratio of a line's thickness t
 constexpr double kThinnest = 0.0005;
 /// Greatest distance of a file's means from their cell's centre [cells].
 constexpr float kMostCellsOff = 1.0F;
+
+/// A cell with ends, and where it is, seen from the cell whose surface is wanted [cells].
+template <class Ends>
+struct Neighbour {
+  const Ends* ends = nullptr;
+  int column = 0;
+  int row = 0;
+  double weight = 0.0;
+};
+
+/// How ends lie around their mean [cells].
+struct Spread {
+  double x = 0.0;
+  double y = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double across = 0.0;  ///< least standard deviation
+  double along = 0.0;   ///< greatest one, at right angles to it
+
+  bool isLine() const { return across < kLineRatio * along; }
+};
+
+/// Returns the spread of the ends of neighbours within @p radius.
+template <class Ends>
+Spread spreadOf(std::span<const Neighbour<Ends>> neighbours, int radius) {
+  double n = 0.0;
+  Spread all;
+  for (const Neighbour<Ends>& one : neighbours) {
+    if (std::abs(one.column) > radius || std::abs(one.row) > radius) continue;
+    const Ends& ends = *one.ends;
+    const double ex = static_cast<double>(ends.x) + one.column;
+    const double ey = static_cast<double>(ends.y) + one.row;
+    n += one.weight;
+    all.x += one.weight * ex;
+    all.y += one.weight * ey;
+    all.xx += one.weight * (ex * ex + static_cast<double>(ends.xx));
+    all.xy += one.weight * (ex * ey + static_cast<double>(ends.xy));
+    all.yy += one.weight * (ey * ey + static_cast<double>(ends.yy));
+  }
+  all.x /= n;
+  all.y /= n;
+  all.xx = all.xx / n - all.x * all.x;
+  all.xy = all.xy / n - all.x * all.y;
+  all.yy = all.yy / n - all.y * all.y;
+  const double middle = 0.5 * (all.xx + all.yy);
+  const double apart = std::hypot(0.5 * (all.xx - all.yy), all.xy);
+  all.across = std::sqrt(std::max(0.0, middle - apart));
+  all.along = std::sqrt(std::max(0.0, middle + apart));
+  return all;
+}
 
 }  // namespace
 
@@ -113,60 +167,38 @@ Surface SurfaceField::surfaceOf(std::size_t number) const {
   const std::int32_t cell = cells_[number];
   const int column = cell % grid_.columns;
   const int row = cell / grid_.columns;
-  const auto forNeighbours = [&](int radius, const auto& visit) {
-    for (int r = std::max(0, row - radius); r <= std::min(grid_.rows - 1, row + radius); ++r)
-      for (int c = std::max(0, column - radius); c <= std::min(grid_.columns - 1, column + radius);
-           ++c) {
-        const std::int32_t other =
-            numberAt(static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_.columns) +
-                     static_cast<std::size_t>(c));
-        if (other >= 0) visit(ends_[static_cast<std::size_t>(other)], c - column, r - row);
-      }
-  };
+  constexpr std::size_t kMost = (2 * kWidest + 1) * (2 * kWidest + 1);
+  std::array<Neighbour<Ends>, kMost> found;
+  std::size_t count = 0;
   double most = 0.0;
-  forNeighbours(kWidest, [&](const Ends& ends, int, int) {
-    most = std::max(most, static_cast<double>(ends.count));
-  });
-  Surface surface;
+  for (int r = std::max(0, row - kWidest); r <= std::min(grid_.rows - 1, row + kWidest); ++r)
+    for (int c = std::max(0, column - kWidest); c <= std::min(grid_.columns - 1, column + kWidest);
+         ++c) {
+      const std::int32_t other = numberAt(c, r);
+      if (other < 0) continue;
+      const Ends& ends = ends_[static_cast<std::size_t>(other)];
+      most = std::max(most, static_cast<double>(ends.count));
+      found[count++] = {&ends, c - column, r - row};
+    }
+  const std::span<Neighbour<Ends>> neighbours(found.data(), count);
+  for (Neighbour<Ends>& one : neighbours)
+    one.weight = std::min(1.0, static_cast<double>(one.ends->count) / (kFewEnds * most));
+  Spread spread;
   for (int radius = kWidest; radius >= 0; --radius) {
-    double n = 0.0;
-    double x = 0.0;
-    double y = 0.0;
-    double xx = 0.0;
-    double xy = 0.0;
-    double yy = 0.0;
-    forNeighbours(radius, [&](const Ends& ends, int columnsOff, int rowsOff) {
-      const double weight = std::min(1.0, static_cast<double>(ends.count) / (kFewEnds * most));
-      const double ex = static_cast<double>(ends.x) + columnsOff;
-      const double ey = static_cast<double>(ends.y) + rowsOff;
-      n += weight;
-      x += weight * ex;
-      y += weight * ey;
-      xx += weight * (ex * ex + static_cast<double>(ends.xx));
-      xy += weight * (ex * ey + static_cast<double>(ends.xy));
-      yy += weight * (ey * ey + static_cast<double>(ends.yy));
-    });
-    x /= n;
-    y /= n;
-    const double sxx = xx / n - x * x;
-    const double sxy = xy / n - x * y;
-    const double syy = yy / n - y * y;
-    const double middle = 0.5 * (sxx + syy);
-    const double apart = std::hypot(0.5 * (sxx - syy), sxy);
-    const double across = std::sqrt(std::max(0.0, middle - apart));
-    const double along = std::sqrt(std::max(0.0, middle + apart));
-    // This is the direction of their least spread.
-    const double angle = 0.5 * std::atan2(2.0 * sxy, sxx - syy) + 0.25 * kTurn;
-    surface.x = static_cast<float>(grid_.originX + (column + 0.5 + x) * grid_.cell);
-    surface.y = static_cast<float>(grid_.originY + (row + 0.5 + y) * grid_.cell);
-    surface.normalX = static_cast<float>(std::cos(angle));
-    surface.normalY = static_cast<float>(std::sin(angle));
-    surface.across =
-        static_cast<float>(std::hypot(std::max(kThinnest, across * grid_.cell), sigma_));
-    const bool isLine = across < kLineRatio * along;
-    surface.along = isLine ? -1.0F : static_cast<float>(std::max(kThinnest, along * grid_.cell));
-    if (isLine && across < kThickest) break;
+    spread = spreadOf<Ends>(neighbours, radius);
+    if (spread.isLine() && spread.across < kThickest) break;
   }
+  Surface surface;
+  // This is the direction of their least spread.
+  const double angle = 0.5 * std::atan2(2.0 * spread.xy, spread.xx - spread.yy) + 0.25 * kTurn;
+  surface.x = static_cast<float>(grid_.originX + (column + 0.5 + spread.x) * grid_.cell);
+  surface.y = static_cast<float>(grid_.originY + (row + 0.5 + spread.y) * grid_.cell);
+  surface.normalX = static_cast<float>(std::cos(angle));
+  surface.normalY = static_cast<float>(std::sin(angle));
+  surface.across =
+      static_cast<float>(std::hypot(std::max(kThinnest, spread.across * grid_.cell), sigma_));
+  surface.along =
+      spread.isLine() ? -1.0F : static_cast<float>(std::max(kThinnest, spread.along * grid_.cell));
   return surface;
 }
 
@@ -184,13 +216,36 @@ void SurfaceField::spreadNumbers() {
   const auto squared = [](const Offset& o) { return o.column * o.column + o.row * o.row; };
   std::stable_sort(offsets.begin(), offsets.end(),
                    [&](const Offset& a, const Offset& b) { return squared(a) < squared(b); });
+  std::vector<Offset> places;
+  for (const std::int32_t cell : cells_)
+    places.push_back({cell % grid_.columns, cell / grid_.columns});
+  const auto isInside = [&](int column, int row) {
+    return column >= 0 && row >= 0 && column < grid_.columns && row < grid_.rows;
+  };
+  // A surface in the next cell on the way is nearer to all cells behind it. So by the signs of
+  // offsets: surfaces that have none there, which are few along walls.
+  std::array<std::vector<std::int32_t>, 9> outermost;
+  const auto signs = [](int column, int row) {
+    const auto sign = [](int n) { return (n > 0) - (n < 0); };
+    return static_cast<std::size_t>(3 * sign(column) + sign(row) + 4);
+  };
+  const auto hasSurface = [&](int column, int row) {
+    return isInside(column, row) && numberFor(column, row) >= 0;
+  };
+  for (std::size_t number = 0; number < places.size(); ++number) {
+    const auto [column, row] = places[number];
+    for (int c = -1; c <= 1; ++c)
+      for (int r = -1; r <= 1; ++r)
+        if ((c == 0 || !hasSurface(column + c, row)) && (r == 0 || !hasSurface(column, row + r)))
+          outermost[signs(c, r)].push_back(static_cast<std::int32_t>(number));
+  }
   for (const Offset& offset : offsets) {  // nearer ones come first
-    for (std::size_t number = 0; number < cells_.size(); ++number) {
-      const int column = cells_[number] % grid_.columns + offset.column;
-      const int row = cells_[number] / grid_.columns + offset.row;
-      if (column < 0 || row < 0 || column >= grid_.columns || row >= grid_.rows) continue;
+    for (const std::int32_t number : outermost[signs(offset.column, offset.row)]) {
+      const int column = places[static_cast<std::size_t>(number)].column + offset.column;
+      const int row = places[static_cast<std::size_t>(number)].row + offset.row;
+      if (!isInside(column, row)) continue;
       std::int32_t& nearest = numberFor(column, row);
-      if (nearest < 0) nearest = static_cast<std::int32_t>(number);
+      if (nearest < 0) nearest = number;
     }
   }
 }
@@ -244,6 +299,15 @@ void SurfaceField::load(const std::shared_ptr<const TableFile>& shared, const st
     ends_.push_back(e);
   }
   makeSurfaces();
+}
+
+std::shared_ptr<const SurfaceField> SurfaceField::of(const std::shared_ptr<const TableFile>& file,
+                                                     const std::string& prefix) {
+  return file->shared<SurfaceField>(prefix + "surfaces", [&] {
+    auto surfaces = std::make_shared<SurfaceField>();
+    surfaces->load(file, prefix);
+    return surfaces;
+  });
 }
 
 }  // namespace ortung

@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string_view>
 
@@ -98,6 +100,8 @@ struct TableFile::Impl {
   std::span<const std::byte> bytes;
   std::vector<zip::Entry> texts;
   std::vector<TableArray> arrays;
+  std::mutex mutex;  ///< guards what is made of the arrays
+  std::map<std::string, std::shared_ptr<const void>> made;
 
   ~Impl() {
     if (!bytes.empty()) ::munmap(const_cast<std::byte*>(bytes.data()), bytes.size());
@@ -168,6 +172,15 @@ const TableArray& TableFile::array(const std::string& name) const {
                                [&](const TableArray& array) { return array.name == name; });
   if (it == impl_->arrays.end()) throw TableError(impl_->path.string() + ": has no table " + name);
   return *it;
+}
+
+/// Who asks for what another thread makes waits for it.
+std::shared_ptr<const void> TableFile::sharedOf(
+    const std::string& name, const std::function<std::shared_ptr<const void>()>& make) const {
+  const std::lock_guard lock(impl_->mutex);
+  const auto found = impl_->made.find(name);
+  if (found != impl_->made.end()) return found->second;
+  return impl_->made.emplace(name, make()).first->second;
 }
 
 void checkArray(const TableFile& file, const TableArray& array, ElementType type,

@@ -2,6 +2,7 @@
 #include <limits>
 #include <set>
 
+#include "Crc32.hpp"
 #include "PluginProgress.hpp"
 #include "Zip.hpp"
 #include "ortung/base/NewFile.hpp"

@@ -1,9 +1,10 @@
 #include "Zip.hpp"
 
-#include <array>
 #include <cstring>
 #include <optional>
 #include <set>
+
+#include "Crc32.hpp"
 
 namespace ortung::zip {
 namespace {
@@ -17,26 +18,6 @@ constexpr std::size_t kEndSize = 22;
 constexpr std::uint16_t kVersion = 20;
 constexpr std::uint16_t kExtraId = 0x4F52;  // "RO": our padding, ignored by others
 constexpr std::uint16_t kDate = (2000 - 1980) << 9 | 1 << 5 | 1;  // fixed: same content, same bytes
-
-using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
-
-constexpr CrcTables makeCrcTables() {
-  CrcTables tables{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t crc = i;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) ? 0xEDB88320U : 0U);
-    tables[0][i] = crc;
-  }
-  for (std::size_t t = 1; t < 8; ++t) {
-    for (std::size_t i = 0; i < 256; ++i) {
-      const std::uint32_t before = tables[t - 1][i];
-      tables[t][i] = (before >> 8) ^ tables[0][before & 0xFF];
-    }
-  }
-  return tables;
-}
-
-constexpr CrcTables kCrc = makeCrcTables();
 
 template <class Number>
 void put(std::string& out, Number value) {
@@ -100,23 +81,6 @@ std::string readMember(std::span<const std::byte> file, std::size_t at, Entry& e
 }
 
 }  // namespace
-
-std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc) {
-  crc = ~crc;
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, bytes.data() + i, 8);
-    eight ^= crc;
-    crc = kCrc[7][eight & 0xFF] ^ kCrc[6][(eight >> 8) & 0xFF] ^ kCrc[5][(eight >> 16) & 0xFF] ^
-          kCrc[4][(eight >> 24) & 0xFF] ^ kCrc[3][(eight >> 32) & 0xFF] ^
-          kCrc[2][(eight >> 40) & 0xFF] ^ kCrc[1][(eight >> 48) & 0xFF] ^ kCrc[0][eight >> 56];
-  }
-  for (; i < bytes.size(); ++i) {
-    crc = (crc >> 8) ^ kCrc[0][(crc ^ static_cast<std::uint32_t>(bytes[i])) & 0xFF];
-  }
-  return ~crc;
-}
 
 std::string localHeader(const Member& member) {
   const std::size_t bare = member.headerOffset + kLocalSize + member.name.size();

@@ -9,9 +9,6 @@
 /// The store-only part of the zip format (PKWARE APPNOTE 6.3.3), without zip64.
 namespace ortung::zip {
 
-/// CRC-32 of @p bytes (polynomial 0xEDB88320), continuing from @p crc.
-std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t crc = 0);
-
 /// A member's place in the file.
 struct Member {
   std::string name;

@@ -10,14 +10,16 @@
 /// -ffp-contract=off).
 namespace ortung {
 
-/// Instruction sets that loops are compiled for, from the narrowest to the widest vectors.
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+/// Instruction sets that loops are compiled for: on x86-64 portable, AVX2, AVX-512 from the
+/// narrowest to the widest vectors, on 64-bit ARM portable and NEON. (NEON is part of every such
+/// processor, so portable loops that compilers vectorize use it, too.)
+enum class InstructionSet { kPortable, kAvx2, kAvx512, kNeon };
 
 /// Returns whether this machine (and build) can run it.
 ORTUNG_API bool hasInstructionSet(InstructionSet set);
 
-/// Returns the widest set of this machine; $ORTUNG_SIMD (portable, avx2, avx512) lowers the choice,
-/// any other word does nothing: see checkInstructionSet().
+/// Returns the widest set of this machine; $ORTUNG_SIMD (portable, avx2, avx512; on ARM portable,
+/// neon) lowers the choice, any other word does nothing: see checkInstructionSet().
 ORTUNG_API InstructionSet instructionSet();
 
 /// Checks the environment; programs call it at their beginning.
@@ -39,6 +41,9 @@ ORTUNG_API void useInstructionSet(std::optional<InstructionSet> set);
 #define ORTUNG_AVX512 \
   __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
+#define ORTUNG_INLINE inline __attribute__((always_inline))
+#elif defined(__aarch64__) && defined(__GNUC__)
+#define ORTUNG_NEON 1
 #define ORTUNG_INLINE inline __attribute__((always_inline))
 #else
 #define ORTUNG_INLINE inline

@@ -34,6 +34,7 @@ void runWidest(Arguments... arguments) {
     case InstructionSet::kAvx2:
       return widest::avx2<Loop>(arguments...);
     case InstructionSet::kPortable:
+    case InstructionSet::kNeon:
       break;
   }
 #endif

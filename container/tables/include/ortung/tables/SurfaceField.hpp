@@ -44,15 +44,21 @@ class ORTUNG_API SurfaceField {
   const FieldGrid& grid() const { return grid_; }
   /// Returns the surface nearest to a point [m], or null if none is within kReach.
   const Surface* near(double x, double y) const {
-    const std::ptrdiff_t cell = grid_.cellAt(x, y);
-    if (cell < 0) return nullptr;
-    const std::int32_t number = numberAt(static_cast<std::size_t>(cell));
+    // As FieldGrid::cellAt(), but for the way over the cell's index, which costs divisions.
+    const double column = (x - grid_.originX) / grid_.cell;
+    const double row = (y - grid_.originY) / grid_.cell;
+    if (!(column >= 0 && row >= 0 && column < grid_.columns && row < grid_.rows)) return nullptr;
+    const std::int32_t number = numberAt(static_cast<int>(column), static_cast<int>(row));
     return number < 0 ? nullptr : &surfaces_[static_cast<std::size_t>(number)];
   }
 
   void save(TableWriter& file, const std::string& prefix) const;
   /// Files of older versions have no surfaces: then it stays empty.
   void load(const std::shared_ptr<const TableFile>& file, const std::string& prefix);
+  /// Returns the surfaces of a file, made once for all who use it: making them takes longer than
+  /// what else is loaded.
+  static std::shared_ptr<const SurfaceField> of(const std::shared_ptr<const TableFile>& file,
+                                                const std::string& prefix);
 
  private:
   static constexpr int kBlock = 16;  ///< cells along the edge of a block
@@ -78,16 +84,15 @@ class ORTUNG_API SurfaceField {
   using Block = std::array<std::int32_t, static_cast<std::size_t>(kBlock) * kBlock>;
 
   std::size_t blockAt(int column, int row) const {
-    return static_cast<std::size_t>(row / kBlock) * blockColumns_ +
-           static_cast<std::size_t>(column / kBlock);
+    return static_cast<std::size_t>(row) / kBlock * blockColumns_ +
+           static_cast<std::size_t>(column) / kBlock;
   }
   static std::size_t within(int column, int row) {
-    return static_cast<std::size_t>(row % kBlock * kBlock + column % kBlock);
+    return static_cast<std::size_t>(row) % kBlock * kBlock +
+           static_cast<std::size_t>(column) % kBlock;
   }
   /// Number of the cell's surface, or -1. @pre in the grid
-  std::int32_t numberAt(std::size_t cell) const {
-    const int column = static_cast<int>(cell % static_cast<std::size_t>(grid_.columns));
-    const int row = static_cast<int>(cell / static_cast<std::size_t>(grid_.columns));
+  std::int32_t numberAt(int column, int row) const {
     const std::int32_t block = blockOf_[blockAt(column, row)];
     return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)][within(column, row)];
   }

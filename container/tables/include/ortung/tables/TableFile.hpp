@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -57,7 +58,8 @@ class ORTUNG_API TableWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A table file, memory-mapped and read-only; spans stay valid while it lives. Immutable once made.
+/// A table file, memory-mapped and read-only; spans stay valid while it lives. Thread-safe:
+/// immutable once made, but for what shared() keeps.
 class ORTUNG_API TableFile {
  public:
   /// Maps the file and checks structure, sizes and checksums of all members.
@@ -79,8 +81,19 @@ class ORTUNG_API TableFile {
   /// Returns the array @p name of any type and shape. @throws TableError if it is missing
   const TableArray& array(const std::string& name) const;
 
+  /// Returns what @p make makes of the file's arrays; all who ask by the same name share it, as
+  /// long as the file lives. @param make returns a std::shared_ptr<const T>, and asks for nothing
+  /// shared; if it throws, nothing is kept
+  template <class T, class Make>
+  std::shared_ptr<const T> shared(const std::string& name, const Make& make) const {
+    return std::static_pointer_cast<const T>(
+        sharedOf(name, [&make] { return std::shared_ptr<const void>(make()); }));
+  }
+
  private:
   struct Impl;
+  std::shared_ptr<const void> sharedOf(
+      const std::string& name, const std::function<std::shared_ptr<const void>()>& make) const;
   std::unique_ptr<Impl> impl_;
 };
 
