@@ -83,6 +83,29 @@ TEST(Annealing, OfAFlatPriorFindsMassAndShapeOfAGaussian) {
   }
 }
 
+// What the exponents lack of 1 is in the weights, wherever the time is over.
+TEST(Annealing, OfWhichTheRestIsLeftOutIsTheSameDistribution) {
+  const Vector mean = {3.0, -1.5, 1.0};
+  const Vector sigma = {0.5, 0.5, 0.3};
+  const Annealing annealing(gaussian(mean, sigma), nullptr);
+  const SampleSet from = evenly(20, 10, 100000, 1);
+  const double mass = std::pow(kTurn, 1.5) * sigma[0] * sigma[1] * sigma[2];
+  std::vector<double> worth;
+  for (const int last : {0, 60, 1000}) {  // before the first pose, within a step, never
+    int looks = 0;
+    const auto drawn = annealing.draw(from, 20000, Random(1, 7), [&] { return looks++ >= last; });
+    ASSERT_EQ(drawn.samples.size(), 20000u);
+    EXPECT_NEAR(drawn.logEvidence, std::log(mass / (20 * 10 * kTurn)), 0.2) << last;
+    const Moments m = momentsOf(drawn.samples);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(m.mean[k], mean[k], 0.2 * sigma[k]) << last << ", " << k;
+      EXPECT_NEAR(m.sigma(k), sigma[k], 0.2 * sigma[k]) << last << ", " << k;
+    }
+    worth.push_back(effectiveSamples(normalized(drawn.samples.logWeight)));
+  }
+  EXPECT_LT(worth[0], 0.5 * worth[2]) << "time is worth something";
+}
+
 TEST(Annealing, OfWhatTellsNothingHasNoEvidenceAndLeavesThePrior) {
   const auto flat = [](const SampleSet& set, std::vector<float>& out) {
     out.assign(set.size(), -2.0F);

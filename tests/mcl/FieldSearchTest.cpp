@@ -154,6 +154,31 @@ TEST(FieldSearch, KeepsToItsBudgetAndItsForecast) {
   EXPECT_EQ(hills->weighed() - before, 1U) << "without a budget, one pose";
 }
 
+// Between two questions there are a few poses, or a few of those that are chosen; the search gets
+// on nevertheless, and finds the same.
+TEST(FieldSearch, StopsAfterAFewPosesOnceItsTimeIsOver) {
+  const FieldRegion region = hall();
+  const auto bits = told(bumps);
+  const auto hills = std::make_shared<Hills>(std::vector<Hill>{{{7.3, 4.1, 2.9}, 0.0}});
+  FieldSearch search(region, {});
+  search.begin({bits, hills});
+  const auto both = found(region, {bits, hills});
+  std::size_t before = hills->weighed();
+  std::size_t idle = 0;
+  while (!search.work(1e9, [] { return true; })) {
+    const std::size_t weighed = hills->weighed() - before;
+    EXPECT_LE(weighed, kTimedPoses);
+    if (weighed == 0) ++idle;
+    before = hills->weighed();
+  }
+  EXPECT_GT(idle, 30U) << "choosing is divided, too";
+  ASSERT_EQ(search.places().size(), both.size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    EXPECT_EQ(search.places()[i].pose.x, both[i].pose.x);
+    EXPECT_EQ(search.places()[i].logProbability, both[i].logProbability);
+  }
+}
+
 TEST(FieldSearch, HoldsItsReadingsUntilItIsDone) {
   const FieldRegion region = hall();
   auto hills = std::make_shared<const Hills>(std::vector<Hill>{{{7.3, 4.1, 2.9}, 0.0}});

@@ -65,12 +65,16 @@ double shareNear(const SampleSet& set, const Pose2& top, double metres, double r
   return share;
 }
 
+/// A sharp reading, which two poses explain.
+std::shared_ptr<const Weigher> twoHills() {
+  return std::make_shared<const Hills>(
+      std::vector<Hill>{{{3.17, 8.24, -1.01}, 0.0}, {{8.43, 1.72, 1.53}, -0.5}});
+}
+
 TEST(GlobalStart, DrawsTheSameBitsWithAnyThreadsAndInAnySlices) {
-  const std::vector<Hill> hills = {{{3.17, 8.24, -1.01}, 0.0}, {{8.43, 1.72, 1.53}, -0.5}};
   for (const bool isVague : {false, true}) {
     SCOPED_TRACE(isVague ? "vague" : "sharp");
-    const std::shared_ptr<const Weigher> reading =
-        isVague ? range() : std::make_shared<const Hills>(hills);
+    const std::shared_ptr<const Weigher> reading = isVague ? range() : twoHills();
     MclConfig config;
     config.maxSamples = 5000;
     const std::string expected = bitsOf(Start(reading, config).drawn());
@@ -96,6 +100,21 @@ class Counted final : public Weigher {
   }
   std::shared_ptr<const Weigher> its_;
 };
+
+TEST(GlobalStart, DrawsTheSameBitsIfItsTimeIsOverAfterEachFewPoses) {
+  for (const bool isVague : {false, true}) {
+    SCOPED_TRACE(isVague ? "vague" : "sharp");
+    const std::shared_ptr<const Weigher> reading = isVague ? range() : twoHills();
+    MclConfig config;
+    config.maxSamples = 5000;
+    Start sliced(reading, config);
+    while (!sliced.start.work(1e9, [] { return true; })) continue;
+    const std::size_t size = sliced.start.size();
+    const SampleSet drawn = sliced.start.take();
+    EXPECT_EQ(bitsOf(drawn), bitsOf(Start(reading, config).drawn()));
+    EXPECT_GE(size, drawn.size());
+  }
+}
 
 TEST(GlobalStart, KeepsToItsBudget) {
   const auto hill = told([](double x, double y, double t) {

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
 #include "Kld.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/base/Workers.hpp"
 
 namespace ortung {
 namespace {
@@ -73,7 +75,35 @@ TEST(PoseBins, CountsWhatATreeOfBinsCounts) {
   }
   const PoseBins bins(config, poses.view());
   EXPECT_EQ(bins.count(), expected.size());
-  EXPECT_EQ(bins.binOf().size(), poses.x.size());
+  std::set<std::uint32_t> numbers;
+  for (std::size_t i = 0; i < poses.x.size(); ++i) numbers.insert(bins.binOf(i));
+  EXPECT_EQ(numbers.size(), expected.size());
+}
+
+TEST(PoseBins, AreTheSameWithAnyThreads) {
+  const MclConfig config;
+  Random random(3);
+  Poses poses;
+  for (int i = 0; i < 30000; ++i)
+    poses.add(random.gaussian(), random.gaussian(), 0.5 * random.gaussian());
+  std::vector<std::uint32_t> drawn;
+  for (std::uint32_t i = 100; i < 20000; i += 1 + i % 3) drawn.push_back(i);
+  const PoseBins alone(config, poses.view());
+  Workers workers(3);
+  const PoseBins shared(config, poses.view(), &workers);
+  ASSERT_GT(alone.count(), 500U);
+  EXPECT_EQ(shared.count(), alone.count());
+  std::set<std::uint32_t> ofDrawn;
+  std::uint32_t most = 0;
+  for (std::uint32_t i = 0; i < 30000; ++i) {
+    ASSERT_EQ(shared.binOf(i), alone.binOf(i));
+    ASSERT_LE(alone.binOf(i), most) << "they are numbered as they occur";
+    most = std::max(most, alone.binOf(i) + 1);
+  }
+  for (const std::uint32_t i : drawn) ofDrawn.insert(alone.binOf(i));
+  EXPECT_EQ(alone.countOf(drawn), ofDrawn.size());
+  EXPECT_EQ(shared.countOf(drawn, &workers), ofDrawn.size());
+  EXPECT_EQ(shared.clusters(), alone.clusters());
 }
 
 TEST(PoseBins, DoNotCareForWholeTurns) {

@@ -35,6 +35,24 @@ class PoseReading final : public Weigher, public Polishable {
   double blur_;
 };
 
+/// Leads half of the way to where it reads the pose, and counts how often it is asked.
+class HalfwayReading final : public Weigher, public Polishable {
+ public:
+  HalfwayReading(const Pose2& read, double sigma, int& asked)
+      : read_(read), sigma_(sigma), asked_(asked) {}
+  Slope slopeAt(const Pose2& pose) const override {
+    ++asked_;
+    const Pose2 half{0.5 * (read_.x + pose.x), 0.5 * (read_.y + pose.y), read_.theta};
+    return PoseReading(half, sigma_, 0.0).slopeAt(pose);
+  }
+
+ private:
+  void weigh(const SampleView&, std::span<float>) const override {}
+  Pose2 read_;
+  double sigma_;
+  int& asked_;
+};
+
 class OtherReading final : public Weigher {
   void weigh(const SampleView&, std::span<float>) const override {}
 };
@@ -62,6 +80,17 @@ TEST(Polish, IsTheMeanOfWhatWasKnownAndWhatIsRead) {
   const double read = 1.0 / (0.01 * 0.01);
   EXPECT_NEAR(estimate.pose.x, 0.03 * read / (known + read), 1e-9);
   EXPECT_NEAR(estimate.pose.y, -0.01 * read / (known + read), 1e-9);
+}
+
+TEST(Polish, EndsOnceItsStepsAreSmallBesideTheSigma) {
+  Polish polish(false);
+  int asked = 0;
+  PoseEstimate estimate = cluster({0, 0, 0.5}, 0.05);
+  polish.follow({{nullptr, 1, std::make_shared<HalfwayReading>(Pose2{0.03, 0, 0.5}, 0.01, asked)}},
+                estimate);
+  // Steps of 15, 7, 3.4, 1.7, 0.8 and 0.4 mm: the last is less than 5 % of the sigma of 9.9 mm.
+  EXPECT_EQ(asked, 6);
+  EXPECT_NEAR(estimate.pose.x, 0.0283, 0.0005);
 }
 
 TEST(Polish, FollowsLikeAKalmanFilterWhereReadingsKeepTheirPromises) {

@@ -277,5 +277,23 @@ TEST(Fit, GivesEveryReadingOneVoiceAndNoneToThoseThatTellNothing) {
   EXPECT_FALSE(even.fit({}));
 }
 
+TEST(FitsAt, IsTheFitOfABeliefInOnePose) {
+  const Answering some([](float x) { return -0.37F * x; });
+  const Answering nothing([](float) { return -8.0F; });
+  const std::vector<const Weigher*> readings = {&some, &nothing};
+  const std::vector<Pose2> poses = {{1.5, 0, 0}, {0, 1, 2}, {7.3, 0, 0}};
+  const std::vector<double> fits = fitsAt(readings, poses);
+  ASSERT_EQ(fits.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    SampleSet one;
+    one.resize(1);
+    one.x[0] = static_cast<float>(poses[i].x);
+    one.y[0] = static_cast<float>(poses[i].y);
+    one.theta[0] = static_cast<float>(poses[i].theta);
+    EXPECT_EQ(fits[i], *fitOf(readings, one, std::vector{1.0})) << i;
+  }
+  EXPECT_EQ(fitsAt({}, poses), std::vector<double>(poses.size(), 0.0));
+}
+
 }  // namespace
 }  // namespace ortung

@@ -49,8 +49,9 @@ std::unique_ptr<MotionModel> readMotion(const LocalizationConfig& config, Robot&
   return makeMotion(config.motion.value_or(robot.config.motion), robot.factory);
 }
 
-double millisecondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+double millisecondsOnTheClock() {
+  return std::chrono::duration<double, std::milli>(
+             std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
@@ -149,6 +150,7 @@ Localization::Localization(Opened opened, const LocalizationConfig& config)
       publishes_(config.publish) {
   for (const auto& data : robot_->container.all())
     if (odometry_ == nullptr && isOf(*data, formats::kOdometry)) odometry_ = data.get();
+  if (config.keepsTime) mcl_->keepTime(millisecondsOnTheClock);
   if (filter_ != LocalizationFilter::kMcl)
     grid_ = std::make_unique<GridFilter>(mclConfig_, config.grid, robot_->tables.region,
                                          readMotion(config, *robot_));
@@ -298,10 +300,10 @@ std::optional<PoseEstimate> Localization::update() {
                sourceName_ + (sourceName_.empty() ? "" : ": ") + "the first ground truth");
     startAt(*pose);
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = millisecondsOnTheClock();
   const bool weighed =
       isGrid() ? grid_->update(robot_->container) : mcl_->update(robot_->container);
-  count(millisecondsSince(begin));
+  count(millisecondsOnTheClock() - begin);
   if (grid_ && !isGrid()) grid_->update(robot_->container);
   if (!weighed) {
     publishChange();
@@ -345,9 +347,9 @@ void Localization::take(std::span<const Message> moment) {
 void Localization::searchMeanwhile(Timestamp since, Timestamp until) {
   for (Timestamp now = since + kAsking; now < until && mcl_->isSearching(); now += kAsking) {
     const bool waited = !mcl_->estimate(now);
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = millisecondsOnTheClock();
     mcl_->searchOn();
-    count(millisecondsSince(begin));
+    count(millisecondsOnTheClock() - begin);
     if (waited && mcl_->estimate(now)) knownSince_ = now;
   }
 }

@@ -25,10 +25,12 @@ class ORTUNG_API PoseBins {
   /// Returns whether all headings are within a quarter of a turn, so that their mean is the mean of
   /// the numbers.
   bool isNarrow() const;
-  /// Returns the number of the bin of each sample.
-  std::span<const std::uint32_t> binOf() const { return binOf_; }
+  /// Returns the number of a sample's bin.
+  std::uint32_t binOf(std::size_t sample) const {
+    return columns_ > 0 ? table_[placeOf_[sample]] - 1 : placeOf_[sample];
+  }
   /// Returns how many bins the samples with these indices occupy.
-  std::size_t countOf(std::span<const std::uint32_t> samples) const;
+  std::size_t countOf(std::span<const std::uint32_t> samples, Workers* workers = nullptr) const;
   /// Returns the number of the cluster of each bin: bins that touch, at corners, too, are in the
   /// same cluster.
   std::vector<std::uint32_t> clusters() const;
@@ -62,7 +64,8 @@ class ORTUNG_API PoseBins {
   std::size_t columns_ = 0;  ///< number of columns of the dense table; zero: the table is hashed
   std::size_t rows_ = 0;
   std::vector<Bin> bins_;
-  std::vector<std::uint32_t> binOf_;
+  /// Of each sample: its bin's place in the dense table, or the number of its bin if hashed.
+  std::vector<std::uint32_t> placeOf_;
   /// Number of the bin + 1, or 0 if empty; open addressing if hashed.
   std::vector<std::uint32_t> table_;
 };

@@ -11,29 +11,38 @@ namespace ortung {
 
 inline constexpr std::size_t kChunk = 2048;  ///< samples per chunk; even, to align random numbers
 
-/// Calls work(first, count) for all chunks of [0, n). Any thread may do any chunk, so @p work must
-/// depend on its chunk alone. An exception that it throws is rethrown once all chunks have ended.
-/// @param workers borrowed; null: the calling thread does all chunks
+/// Returns the number of chunks of @p n samples.
+constexpr std::size_t chunksOf(std::size_t n) { return (n + kChunk - 1) / kChunk; }
+
+/// Calls work(i) for all i in [0, n). Any thread may do any of them, so @p work must depend on i
+/// alone. An exception that it throws is rethrown once all have ended.
+/// @param workers borrowed; null: the calling thread does all
 template <class Work>
-void forEachChunk(std::size_t n, Workers* workers, const Work& work) {
-  constexpr std::size_t kFewChunks = 4;  // waking a thread costs as much as one chunk
-  const std::size_t chunks = (n + kChunk - 1) / kChunk;
-  const auto run = [&](std::size_t c) { work(c * kChunk, std::min(kChunk, n - c * kChunk)); };
-  if (workers == nullptr || chunks < kFewChunks) {
-    for (std::size_t c = 0; c < chunks; ++c) run(c);
+void forEach(std::size_t n, Workers* workers, const Work& work) {
+  if (workers == nullptr) {
+    for (std::size_t i = 0; i < n; ++i) work(i);
     return;
   }
   std::mutex mutex;
   std::exception_ptr failure;
-  workers->run(chunks, [&](std::size_t c) noexcept {
+  workers->run(n, [&](std::size_t i) noexcept {
     try {
-      run(c);
+      work(i);
     } catch (...) {
       const std::lock_guard lock(mutex);
       failure = std::current_exception();
     }
   });
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Calls work(first, count) for all chunks of [0, n), as forEach() does.
+template <class Work>
+void forEachChunk(std::size_t n, Workers* workers, const Work& work) {
+  constexpr std::size_t kFewChunks = 4;  // waking a thread costs as much as one chunk
+  const std::size_t chunks = chunksOf(n);
+  forEach(chunks, chunks < kFewChunks ? nullptr : workers,
+          [&](std::size_t c) { work(c * kChunk, std::min(kChunk, n - c * kChunk)); });
 }
 
 }  // namespace ortung

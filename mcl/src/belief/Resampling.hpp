@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -48,5 +49,26 @@ ORTUNG_API void add(SampleSet& set, const SampleSet& fresh, double share);
 /// least @p least. Candidates are drawn by w^b and keep w^(1-b), so that a sharp reading does not
 /// leave only one of them.
 ORTUNG_API double temperFor(std::span<const float> logWeights, double least);
+
+/// The same in several calls: by bisection, each step of which looks at all weights.
+class Tempering {
+ public:
+  Tempering(std::vector<float> logWeights, double least)
+      : logs_(std::move(logWeights)), scaled_(logs_.size()), least_(least) {}
+  /// Takes a step. @returns whether that was the last one
+  ORTUNG_API bool narrow();
+  /// @pre narrow() has returned true
+  ORTUNG_API double exponent() const;
+
+ private:
+  double worthOf(double exponent);
+
+  std::vector<float> logs_;
+  std::vector<float> scaled_;
+  double least_;
+  double low_ = 0.0;
+  double high_ = 1.0;
+  int steps_ = 0;
+};
 
 }  // namespace ortung

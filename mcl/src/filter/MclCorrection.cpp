@@ -36,6 +36,7 @@ bool knowsPlace(const PoseEstimate& estimate) {
 /// Moves and corrects the belief for one time step. While the place is known, beams that meet what
 /// has changed in the world say nothing about it.
 void Mcl::Impl::correctAt(Timestamp stamp, const std::vector<NewReading>& news) {
+  const UpdateTime::Measured moment(tools.time, Work::kMoment, sizeOfMoment(news));
   const std::uint32_t relocalizations = estimate.relocalizations;
   std::optional<std::vector<NewReading>> unchanged;
   if (track->isKnown()) {
@@ -50,12 +51,21 @@ void Mcl::Impl::correctAt(Timestamp stamp, const std::vector<NewReading>& news) 
   if (tools.config.watchesMap) watchMap(news, relocalizations);
 }
 
+/// Returns the nominal time of a time step's readings, without what can wait [ms].
+double Mcl::Impl::sizeOfMoment(const std::vector<NewReading>& news) const {
+  const double each = nanosecondsOf(news) + tuning::budget::kPoseNanoseconds;
+  return 1e-6 * each * UpdateTime::sizeOf(track->belief.samples().size());
+}
+
 /// Looks where the readings that have weighed the belief contradict the map.
 /// @param relocalizations number of them before the update
 void Mcl::Impl::watchMap(const std::vector<NewReading>& news, std::uint32_t relocalizations) {
   if (relocalizations != estimate.relocalizations &&
       estimate.relocalization == Relocalization::kOtherPlace)
     map.forgetPass();
+  const UpdateTime::Step begins(tools.time, Work::kMap, tools.time.timeOf(Work::kMap));
+  if (!begins) return;
+  const UpdateTime::Measured look(tools.time, Work::kMap, 1.0);
   PoseEstimate then = track->present.value_or(estimate);  // the pose when they were read
   then.status = estimate.status;
   map.follow(news, then);
@@ -81,10 +91,37 @@ Moment Mcl::Impl::momentOf(const std::vector<NewReading>& news, Timestamp stamp)
   return {stamp, &news, {weighAll, fit}};
 }
 
+/// Asks the readings about the belief. If the time is over before all samples are weighed, the
+/// others are left out.
+/// @param predicted follows the samples that are left out
+Hypothesis::Said Mcl::Impl::ask(const Moment& moment, Predicted& predicted) {
+  Hypothesis& belief = track->belief;
+  if (!tools.time.isKept()) return belief.ask(moment.evidence, &tools.workers);
+  const std::size_t had = belief.samples().size();
+  const double each = nanosecondsOf(*moment.news);
+  tools.time.follows(Work::kClusters, had);
+  const double slice = 1e-6 * static_cast<double>(kTimedPoses * tools.config.threads) * each;
+  std::vector<float> logs;
+  const Parts spread = weighUntil(tools.time.endOfWeighing(slice), *moment.news, belief.samples(),
+                                  tools.workers, tools.config.threads, logs);
+  if (spread.weighed < spread.all) {
+    const auto left = [&](std::size_t i) { return !spread.has(i); };
+    const std::size_t drifted = predicted.drifted;
+    for (std::size_t i = 0; i < drifted; ++i)
+      if (left(i)) --predicted.drifted;
+    belief.leaveOut(left, logs);
+  }
+  const std::size_t weighed = belief.samples().size();
+  tools.time.spend(each * static_cast<double>(weighed));
+  tools.time.follows(Work::kClusters, weighed);
+  tools.limit.weighed(weighed, weighed == had);
+  return belief.said(std::move(logs), &tools.workers);
+}
+
 /// Weighs the belief, and follows how well the readings fit it.
 Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicted) {
   Moment moment = momentOf(news, predicted.stamp);
-  Hypothesis::Said said = track->belief.ask(moment.evidence, &tools.workers);
+  Hypothesis::Said said = ask(moment, predicted);
   if (track->isBlind)
     track->recovery.followBlindly();
   else if (const auto fit = fitOfBelief(moment, said.before))
@@ -99,6 +136,7 @@ Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicte
                              std::min(1.0, track->travelled.all / tuning::common::kIndependent));
   if (compared) compared->fit = fit;
   track->confirmation.count(track->recovery.unusual() == 0, track->travelled.metres);
+  tools.time.follows(Work::kClusters, weights.size());
   return {std::move(moment), std::move(weights), std::move(compared), logEvidence};
 }
 
@@ -143,10 +181,7 @@ std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Sa
   const double ratio = said.logEvidenceOf(drifted, belief.samples().size() - drifted) -
                        said.logEvidenceOf(0, drifted);
   track->trust.compare(-ratio, track->travelled.all);
-  const SampleSet near =
-      Annealing(moment.evidence.weigh, nullptr)
-          .draw(belief.samples().from(drifted), tools.config.minSamples, random(Purpose::kSpread))
-          .samples;
+  const SampleSet near = annealedOf(belief.samples().from(drifted), said, moment);
   belief.keepFirst(drifted);
   said.logs.resize(drifted);
   said.before = belief.weights();
@@ -154,6 +189,24 @@ std::vector<double> Mcl::Impl::takeInUnsure(const Moment& moment, Hypothesis::Sa
   if (track->recovery.isUsual(moment.evidence.fit(near)))
     belief.add(near, 1.0 / (1.0 + std::exp(-ratio)));
   return belief.weights(&tools.workers);
+}
+
+/// Anneals the samples that process noise moved. Without time for that they are weighed.
+/// @param samples the last ones of the belief
+SampleSet Mcl::Impl::annealedOf(SampleSet samples, const Hypothesis::Said& said,
+                                const Moment& moment) {
+  const UpdateTime::Step begins(
+      tools.time, Work::kUnsure,
+      tools.time.timeOfPoses(static_cast<double>(samples.size()), nanosecondsOf(*moment.news)));
+  if (!begins) {
+    const std::size_t first = said.logs.size() - samples.size();
+    for (std::size_t i = 0; i < samples.size(); ++i) samples.logWeight[i] += said.logs[first + i];
+    return samples;
+  }
+  return Annealing(moment.evidence.weigh, nullptr)
+      .draw(std::move(samples), tools.config.minSamples, random(Purpose::kSpread),
+            tools.time.endOf(Work::kAnnealing))
+      .samples;
 }
 
 /// Says how readings are annealed that are far sharper than the belief. Otherwise hardly any sample
@@ -165,12 +218,19 @@ Hypothesis::Climb Mcl::Impl::climbFor(const std::vector<NewReading>& news, std::
   const std::size_t wanted =
       std::max(had, kldSamples(config, PoseBins(config, track->belief.samples().view()).count()));
   const double affordable = 1e6 * tools.time.left() / (kTimesWeighed * nanosecondsOf(news));
-  const std::size_t n =
+  const std::size_t nominal =
       std::min(config.maxSamples,
                std::max(2 * config.minSamples,
                         std::min(wanted, static_cast<std::size_t>(std::min(affordable, 1e9)))));
+  const std::size_t n =
+      std::min(nominal, std::max(config.minSamples, tools.time.posesInTime(nanosecondsOf(news))));
   const Random climb = random(Purpose::kSpread);
-  return {n, std::max(config.minSamples, n / 4), climb.fork(1), climb, !track->isBlind};
+  return {n,
+          std::max(config.minSamples, n / 4),
+          climb.fork(1),
+          climb,
+          !track->isBlind,
+          tools.time.endOf(Work::kAnnealing)};
 }
 
 /// Lets the hypothesis of another place or delay replace the belief, or a part of it, if it has
@@ -184,6 +244,8 @@ Led Mcl::Impl::letBestLead(Weighed weighed) {
 
 Led Mcl::Impl::ledBy(Moment moment, std::vector<double> weights) {
   const SampleView samples = track->belief.samples().view();
+  const UpdateTime::Measured clusters(tools.time, Work::kClusters,
+                                      UpdateTime::sizeOf(samples.size()));
   PoseBins bins(tools.config, samples, &tools.workers);
   const PoseEstimate its = estimateOf(bins, samples, weights, &tools.workers);
   return {std::move(moment), std::move(weights), std::move(bins), its};
@@ -213,9 +275,16 @@ bool Mcl::Impl::letRivalLead(const Weighed& weighed) {
 /// @returns whether another delay of the readings is in force now
 bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
   const Timestamp stamp = weighed.moment.stamp;
-  const Lateness::Moment moment{stamp, weighed.logEvidence,
-                                weighed.compared || track->trust.isLost(), led.estimate,
-                                stream(Purpose::kRivals)};
+  const Lateness::Moment moment{
+      stamp,        weighed.logEvidence,      weighed.compared || track->trust.isLost(),
+      led.estimate, stream(Purpose::kRivals), tools.time.endOf(Work::kAnnealing)};
+  const auto poses = static_cast<double>(parts.lateness.posesFor(moment));
+  // If it leads, clusters follow once more.
+  const UpdateTime::Step begins(tools.time, Work::kDelays,
+                                tools.time.timeOf(Work::kDelays) +
+                                    tools.time.timeOfPoses(poses, nanosecondsOf(*led.moment.news)));
+  if (!begins) return false;
+  const UpdateTime::Measured rest(tools.time, Work::kDelays, poses > 0.0 ? 0.0 : 1.0);
   auto change = parts.lateness.follow(moment, track->recovery, weighed.moment.evidence);
   if (!change) return false;
   if (change->samples) {
@@ -233,16 +302,13 @@ bool Mcl::Impl::letDelayLead(const Led& led, const Weighed& weighed) {
 Estimated Mcl::Impl::estimateFrom(Led led) {
   const Timestamp stamp = led.moment.stamp;
   const std::vector<NewReading>& news = *led.moment.news;
+  const std::size_t samples = led.weights.size();
+  tools.time.follows(Work::kEstimate, samples);
   lookElsewhere(led);
   track->travelled = {};
-  const Pose2 before = std::exchange(estimate, led.estimate).pose;
-  followFloor(before);
-  estimate.stamp = stamp;
-  track->coarsest = coarsestOf(news);
-  keepResolution(estimate);
-  track->momentum.follow(estimate, stamp);
-  parts.lateness.keep(track->belief.samples(), led.weights, estimate, stamp);
-  parts.polish.follow(news, estimate);
+  estimateRoughly(led);
+  refine(news, samples);
+  const UpdateTime::Measured closing(tools.time, Work::kClosing, UpdateTime::sizeOf(samples));
   parts.separation.follow(estimate);
   track->present = estimate;
   if (parts.lateness.seconds() > 0.0) estimate = atStamp(estimate, stamp);
@@ -253,6 +319,27 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   steps.apply(estimate);
   if (tools.config.learnsBiases) parts.biases.follow(news, estimate);
   return {std::move(led.weights), std::move(led.bins)};
+}
+
+/// Takes the estimate of the samples alone.
+void Mcl::Impl::estimateRoughly(const Led& led) {
+  const UpdateTime::Measured all(tools.time, Work::kEstimate,
+                                 UpdateTime::sizeOf(led.weights.size()));
+  const Timestamp stamp = led.moment.stamp;
+  const Pose2 before = std::exchange(estimate, led.estimate).pose;
+  followFloor(before);
+  estimate.stamp = stamp;
+  track->coarsest = coarsestOf(*led.moment.news);
+  keepResolution(estimate);
+  track->momentum.follow(estimate, stamp);
+  parts.lateness.keep(track->belief.samples(), led.weights, estimate, stamp);
+}
+
+/// Refines the estimate as far as there is time. @param samples number of those of the belief
+void Mcl::Impl::refine(const std::vector<NewReading>& news, std::size_t samples) {
+  tools.time.follows(Work::kClosing, samples);
+  const UpdateTime::Measured refining(tools.time, Work::kRefining, 1.0);
+  parts.polish.follow(news, estimate, tools.time.endOf(Work::kPolishing));
 }
 
 /// The parts that follow the estimate by odometry forget where it was on another floor.
@@ -269,7 +356,15 @@ void Mcl::Impl::lookElsewhere(const Led& led) {
   const Lookalikes::Moment moment{led.estimate.pose,
                                   track->isBlind ? std::nullopt : reached.odometry,
                                   track->travelled.all, random(Purpose::kRivals).fork(7)};
+  const auto poses = static_cast<double>(track->lookalikes.poses());
+  const UpdateTime::Step begins(
+      tools.time, Work::kLookalikes,
+      tools.time.timeOfPoses(poses, nanosecondsOf(*led.moment.news)) +
+          tools.time.timeOf(Work::kLookalikes, UpdateTime::sizeOf(led.weights.size())));
+  if (!begins) return;  // they are moved next time
   track->lookalikes.follow(moment, led.moment.evidence);
+  const UpdateTime::Measured finding(tools.time, Work::kLookalikes,
+                                     UpdateTime::sizeOf(led.weights.size()));
   if (led.estimate.share >= 1.0 - tuning::lookalikes::kLeastShare) return;
   track->lookalikes.add(clustersOf(led.bins, track->belief.samples().view(), led.weights,
                                    tuning::lookalikes::kLeastShare));
@@ -287,11 +382,15 @@ PoseDistance Mcl::Impl::othersOf(const Led& led) const {
 void Mcl::Impl::resample(const Estimated& estimated) {
   Hypothesis& belief = track->belief;
   const std::size_t had = belief.samples().size();
+  const UpdateTime::Measured resampling(tools.time, Work::kResampling, UpdateTime::sizeOf(had));
+  tools.time.follows(Work::kEnd, 0);
   const std::vector<double>& weights = estimated.weights;
   if (effectiveSamples(weights) < tools.config.resampleBelow * static_cast<double>(had)) {
     const double offset = random(Purpose::kResampling).uniform();
     std::vector<std::uint32_t> drawn = lowVariance(weights, had, offset, &tools.workers);
-    const std::size_t n = kldSamples(tools.config, estimated.bins.countOf(drawn));
+    const std::size_t n =
+        std::min({kldSamples(tools.config, estimated.bins.countOf(drawn, &tools.workers)),
+                  tools.limit.most(), std::max(tools.time.mostSamples(), tools.config.minSamples)});
     if (n != drawn.size()) drawn = lowVariance(weights, n, offset, &tools.workers);
     belief.setSamples(taken(belief.samples(), drawn, &tools.workers));
   } else {

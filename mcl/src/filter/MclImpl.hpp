@@ -115,6 +115,7 @@ struct Mcl::Impl {
   ReadingsByTime look(const SensorContainer& container);
   void start(ReadingsByTime& news);
   void goOnStarting();
+  void startFrom(const GlobalStart::Moment& then, SampleSet samples, std::size_t most);
   void goOnWithoutNews();
 
   // Predict.
@@ -135,13 +136,17 @@ struct Mcl::Impl {
 
   // Correct.
   void correctAt(Timestamp stamp, const std::vector<NewReading>& news);
+  double sizeOfMoment(const std::vector<NewReading>& news) const;
   void watchMap(const std::vector<NewReading>& news, std::uint32_t relocalizations);
   void correct(const std::vector<NewReading>& news, Predicted predicted);
   Moment momentOf(const std::vector<NewReading>& news, Timestamp stamp);
+  Hypothesis::Said ask(const Moment& moment, Predicted& predicted);
   [[nodiscard]] Weighed weigh(const std::vector<NewReading>& news, Predicted predicted);
   [[nodiscard]] Led letBestLead(Weighed weighed);
   [[nodiscard]] Estimated estimateFrom(Led led);
   void lookElsewhere(const Led& led);
+  void estimateRoughly(const Led& led);
+  void refine(const std::vector<NewReading>& news, std::size_t samples);
   PoseDistance othersOf(const Led& led) const;
   void followFloor(const Pose2& before);
   void resample(const Estimated& estimated);
@@ -149,6 +154,7 @@ struct Mcl::Impl {
   std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);
   std::vector<double> takeInUnsure(const Moment& moment, Hypothesis::Said said,
                                    std::size_t drifted);
+  SampleSet annealedOf(SampleSet samples, const Hypothesis::Said& said, const Moment& moment);
   Hypothesis::Climb climbFor(const std::vector<NewReading>& news, std::size_t had);
   bool letRivalLead(const Weighed& weighed);
   bool letDelayLead(const Led& led, const Weighed& weighed);

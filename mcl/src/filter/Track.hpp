@@ -17,6 +17,7 @@
 #include "PoseSearch.hpp"
 #include "Recovery.hpp"
 #include "Rivals.hpp"
+#include "SampleLimit.hpp"
 #include "Separation.hpp"
 #include "UpdateTime.hpp"
 #include "ortung/base/Workers.hpp"
@@ -36,6 +37,7 @@ struct Tools {
         motion(std::move(m)),
         search(region),
         time(config),
+        limit(config),
         workers(config.threads) {}
 
   MclConfig config;
@@ -43,6 +45,7 @@ struct Tools {
   std::unique_ptr<MotionModel> motion;
   PoseSearch search;
   UpdateTime time;
+  SampleLimit limit;
   Workers workers;
 };
 

@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "Resampling.hpp"
+#include "ortung/base/FastMath.hpp"
+#include "ortung/base/GaussianRows.hpp"
 #include "ortung/base/Random.hpp"
+#include "ortung/base/Widest.hpp"
 
 namespace ortung {
 namespace {
@@ -14,8 +17,32 @@ constexpr std::size_t kBlock = 256;  ///< number of samples whose noise is drawn
 /// Number of the first random number: far from those that a motion model takes from the same
 /// stream.
 constexpr std::uint64_t kFirstNumber = std::uint64_t{1} << 40;
-/// Per sample: x, y, theta, unused (fillGaussian starts at even numbers).
-constexpr std::size_t kNumbersASample = 4;
+constexpr std::size_t kNumbersASample = 4;  ///< x, y, theta, unused
+/// Numbers of mean 0 and sigma 1: a row for each kind, a column for each sample.
+using Noise = std::array<std::array<float, kBlock>, kNumbersASample>;
+
+/// A motion and its noise, in single precision.
+struct Step {
+  float ahead;
+  float left;
+  float turn;
+  float sigma;
+  float sigmaTurn;
+};
+
+/// Moves @p n samples.
+struct DriftAll {
+  ORTUNG_INLINE static void run(Step step, const Noise* rows, std::size_t n, float* __restrict x,
+                                float* __restrict y, float* __restrict theta) {
+    const Noise& noise = *rows;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SinCos heading = sinCos(theta[i]);
+      x[i] += heading.cos * step.ahead - heading.sin * step.left + step.sigma * noise[0][i];
+      y[i] += heading.sin * step.ahead + heading.cos * step.left + step.sigma * noise[1][i];
+      theta[i] += step.turn + step.sigmaTurn * noise[2][i];
+    }
+  }
+};
 
 }  // namespace
 
@@ -25,23 +52,18 @@ double driftSeconds(Timestamp since, Timestamp until) {
 
 void drift(const MclConfig& config, const MovableSamples& samples, const Pose2& ahead,
            double seconds, std::uint64_t stream, std::uint64_t first) {
-  const auto sigma = static_cast<float>(config.driftMetres * std::sqrt(seconds));
-  const auto sigmaTurn = static_cast<float>(config.driftRadians * std::sqrt(seconds));
-  const auto aheadX = static_cast<float>(ahead.x);
-  const auto aheadY = static_cast<float>(ahead.y);
-  const auto turn = static_cast<float>(ahead.theta);
-  std::array<float, kBlock * kNumbersASample> noise;
+  const Step step{static_cast<float>(ahead.x), static_cast<float>(ahead.y),
+                  static_cast<float>(ahead.theta),
+                  static_cast<float>(config.driftMetres * std::sqrt(seconds)),
+                  static_cast<float>(config.driftRadians * std::sqrt(seconds))};
+  Noise noise;
   for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, samples.x.size() - begin);
-    fillGaussian(config.seed, stream, kFirstNumber + (first + begin) * kNumbersASample,
-                 std::span(noise).first(count * kNumbersASample));
-    for (std::size_t i = 0; i < count; ++i) {
-      const float c = std::cos(samples.theta[begin + i]);
-      const float s = std::sin(samples.theta[begin + i]);
-      samples.x[begin + i] += c * aheadX - s * aheadY + sigma * noise[i * kNumbersASample];
-      samples.y[begin + i] += s * aheadX + c * aheadY + sigma * noise[i * kNumbersASample + 1];
-      samples.theta[begin + i] += turn + sigmaTurn * noise[i * kNumbersASample + 2];
-    }
+    const auto row = [&](std::size_t k) { return std::span(noise[k]).first(count); };
+    fillGaussianRows(config.seed, stream, kFirstNumber / kNumbersASample + first + begin,
+                     {row(0), row(1), row(2), row(3)});
+    runWidest<DriftAll, Step, const Noise*>(step, &noise, count, samples.x.data() + begin,
+                                            samples.y.data() + begin, samples.theta.data() + begin);
   }
 }
 

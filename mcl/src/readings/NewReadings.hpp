@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "IsOver.hpp"
+#include "ortung/base/Export.hpp"
 #include "ortung/base/Time.hpp"
 #include "ortung/core/Weigher.hpp"
 #include "ortung/mcl/SampleSet.hpp"
@@ -36,5 +38,18 @@ double nanosecondsOf(const std::vector<NewReading>& news);
 /// @param out ln p of each sample; resized to the size of @p set
 void weigh(const std::vector<NewReading>& news, const SampleSet& set, Workers* workers,
            std::vector<float>& out);
+
+/// Parts of a set, each of samples that are evenly spread over it, so each represents the whole.
+struct Parts {
+  std::size_t all = 1;
+  std::size_t weighed = 1;  ///< the first of them
+  bool has(std::size_t sample) const { return sample % all < weighed; }
+};
+/// Does the same part by part, until the time is over; at least the first.
+/// @param atOnce parts that are weighed between two looks at the time
+/// @param out what was not weighed is arbitrary
+ORTUNG_API Parts weighUntil(const IsOver& isOver, const std::vector<NewReading>& news,
+                            const SampleSet& set, Workers& workers, std::size_t atOnce,
+                            std::vector<float>& out);
 
 }  // namespace ortung

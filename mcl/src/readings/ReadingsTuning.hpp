@@ -62,6 +62,32 @@ namespace budget {
 /// [share] Share of the budget for weighing and searches. Chosen by hand: the rest is for all other
 /// work.
 ORTUNG_CONSTANT(budget, kShare, 0.8);
+/// [share] Share of the time before what must follow after which a clock ends the weighing of the
+/// belief. Chosen by hand: what can wait gets the rest.
+ORTUNG_CONSTANT(budget, kShareOfWeighing, 0.75);
+/// [share] Greatest share of the same time that the weighing leaves to what has asked for it in the
+/// last update. Chosen by hand: what the belief says comes first.
+ORTUNG_CONSTANT(budget, kMostClaimed, 0.6);
+/// [share] Share of the budget that is left for what is not measured. Chosen by hand.
+ORTUNG_CONSTANT(budget, kMargin, 0.1);
+/// [share] Greatest share of the budget that the belief's estimate may take, so that the rest is
+/// for weighing. Chosen by hand.
+ORTUNG_CONSTANT(budget, kMostToEstimate, 0.5);
+/// [share] Share of the longest time of some work that is left when it is done again. Chosen by
+/// hand: of a hundred updates one may be late.
+ORTUNG_CONSTANT(budget, kTimeKept, 0.99);
+/// Greatest ratio of the longest time of some work to the one before: a program that was stopped
+/// for a while must not end all searches. Chosen by hand.
+ORTUNG_CONSTANT(budget, kGrowth, 2.0);
+/// Number of times that a step is refused in a row before it begins although it may be late. Chosen
+/// by hand: of two hundred updates one may be late.
+ORTUNG_CONSTANT(budget, kPatience, 200);
+/// [ns] Nominal time to draw and anneal a pose, without weighing it. Cost.
+ORTUNG_CONSTANT(budget, kPoseNanoseconds, 150.0);
+/// [ns] Nominal time of all that follows the weighing of a sample. Cost.
+ORTUNG_CONSTANT(budget, kSampleNanoseconds, 150.0);
+/// Number of samples that would take as long as what does not depend on their number. Cost.
+ORTUNG_CONSTANT(budget, kSamplesOfNone, 1000.0);
 /// [share] Share of the budget that searches get at least, so that they end. Cost.
 ORTUNG_CONSTANT(budget, kLeastShare, 0.1);
 

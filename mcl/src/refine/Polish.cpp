@@ -26,6 +26,9 @@ using Matrix = Eigen::Matrix3d;
 
 constexpr double kSettledMetres = 2e-4;
 constexpr double kSettledRadians = 2e-5;
+/// Steps that change the pose by less than this share of its sigma end the iteration, too: what is
+/// left after them is a fraction of that.
+constexpr double kSettledShare = 0.05;
 
 Matrix widened(const PoseCovariance& covariance, double metres, double radians) {
   Matrix wider = matrixOf(covariance);
@@ -53,6 +56,15 @@ struct Solution {
   Pose2 slopeAt;  ///< pose at which they were taken, which is hardly another one
 };
 
+/// Returns those of the readings that have derivatives.
+std::vector<const Polishable*> polishableOf(const std::vector<NewReading>& news) {
+  std::vector<const Polishable*> readings;
+  for (const NewReading& one : news)
+    if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
+      readings.push_back(reading);
+  return readings;
+}
+
 Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose) {
   Slope slope;
   for (const Polishable* reading : readings) slope.add(reading->slopeAt(pose), 1.0);
@@ -61,21 +73,26 @@ Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose)
 
 /// Returns the maximum a posteriori of the readings and the prior, by iteration from @p start.
 /// @param slope derivative of the readings at @p start
+/// @param isOver ends the iteration, the first step of which takes next to no time
 std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
-                                  const Prior& prior, const Pose2& start, const Slope& slope) {
+                                  const Prior& prior, const Pose2& start, const Slope& slope,
+                                  const IsOver& isOver) {
   Solution found{start, {}, slope, start};
   for (int step = 0; step < kMostSteps; ++step) {
+    if (step > 0 && isNow(isOver)) break;
     if (step > 0) found.slope = slopeOf(readings, found.pose);
     found.slopeAt = found.pose;
-    const Eigen::LDLT<Matrix> all(prior.precision + matrixOf(found.slope.information));
+    const Matrix precision = prior.precision + matrixOf(found.slope.information);
+    const Eigen::LDLT<Matrix> all(precision);
     const Vector change = all.solve(Vector(found.slope.pull.data()) +
                                     prior.precision * difference(prior.mean, found.pose));
     if (!change.allFinite()) return std::nullopt;
     found.covariance = all.solve(Matrix::Identity());
     found.pose = {found.pose.x + change.x(), found.pose.y + change.y(),
                   wrapAngle(found.pose.theta + change.z())};
-    if (std::hypot(change.x(), change.y()) < kSettledMetres &&
-        std::abs(change.z()) < kSettledRadians)
+    if (change.dot(precision * change) < kSettledShare * kSettledShare ||
+        (std::hypot(change.x(), change.y()) < kSettledMetres &&
+         std::abs(change.z()) < kSettledRadians))
       break;
   }
   return found;
@@ -114,8 +131,9 @@ bool explains(const PoseEstimate& predicted, const Solution& solution, double ti
 
 /// Returns the pose by the readings alone, which determine one.
 std::optional<PoseEstimate> aloneOf(const std::vector<const Polishable*>& readings,
-                                    const Solution& near) {
-  const auto solution = agreement(readings, {near.pose, Matrix::Zero()}, near.slopeAt, near.slope);
+                                    const Solution& near, const IsOver& isOver) {
+  const auto solution =
+      agreement(readings, {near.pose, Matrix::Zero()}, near.slopeAt, near.slope, isOver);
   if (!solution) return std::nullopt;
   PoseEstimate alone;
   alone.pose = solution->pose;
@@ -171,13 +189,15 @@ void Polish::move(const MotionChange& change) {
   if (cluster_) cluster_ = carriedOn(*cluster_, change);
 }
 
-void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate) {
+void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate,
+                    const IsOver& isOver) {
   const std::optional<PoseEstimate> predicted = std::exchange(cluster_, estimate);
-  std::vector<const Polishable*> readings;
-  for (const NewReading& one : news)
-    if (const auto* reading = dynamic_cast<const Polishable*>(one.weigher.get()))
-      readings.push_back(reading);
+  const std::vector<const Polishable*> readings = polishableOf(news);
   const bool follows = place_ && predicted && isSame(place_->pose, *predicted);
+  if (isNow(isOver)) {
+    apply(estimate);
+    return;
+  }
   const Slope slope = slopeOf(readings, estimate.pose);
   const Determined pose = determinedBy(slope);
   // A consistent refined pose is known well enough to be normal in the directions that the readings
@@ -189,16 +209,16 @@ void Polish::follow(const std::vector<NewReading>& news, PoseEstimate& estimate)
   }
   Prior prior = follows ? between(*predicted, *place_, std::min(1.0, kRandomRatio / times_))
                         : priorOf(predicted.value_or(estimate), kClusterMetres, kClusterRadians);
-  auto solution = agreement(readings, prior, estimate.pose, slope);
+  auto solution = agreement(readings, prior, estimate.pose, slope, isOver);
   if (solution && follows && !explains(*place_, *solution, times_)) {
     // Less noise than the model's does not explain the readings, so it is the model's.
     place_ = careful_;
     odometry_.separate();
     prior = between(*predicted, *place_, std::min(1.0, kRandomRatio / times_));
-    solution = agreement(readings, prior, estimate.pose, slope);
+    solution = agreement(readings, prior, estimate.pose, slope, isOver);
   }
   if (learnsOdometry_ && solution && determinedBy(solution->slope) == Determined::kAll) {
-    if (const auto alone = aloneOf(readings, *solution)) odometry_.compare(*alone);
+    if (const auto alone = aloneOf(readings, *solution, isOver)) odometry_.compare(*alone);
   }
   if (!solution || !isSame(solution->pose, estimate)) {
     place_.reset();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "CarriedOn.hpp"
+#include "IsOver.hpp"
 #include "LearnedOdometry.hpp"
 #include "NewReadings.hpp"
 #include "RefineTuning.hpp"
@@ -36,7 +37,10 @@ class ORTUNG_API Polish {
   /// Refines the estimate by readings.
   /// @param estimate in: the heaviest cluster after the readings were weighed; out: refined, if
   ///   they permit it
-  void follow(const std::vector<NewReading>& news, PoseEstimate& estimate);
+  /// @param isOver ends the iterations earlier, asked after each; if it is over at once, the
+  ///   readings do not refine
+  void follow(const std::vector<NewReading>& news, PoseEstimate& estimate,
+              const IsOver& isOver = {});
   /// Replaces the estimate of a cluster by the refined one, if both are at the same place and the
   /// refined one is more certain.
   void apply(PoseEstimate& cluster) const;

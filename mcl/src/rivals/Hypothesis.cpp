@@ -25,8 +25,13 @@ std::vector<double> Hypothesis::weights(Workers* workers) const {
 }
 
 Hypothesis::Said Hypothesis::ask(const Evidence& evidence, Workers* workers) const {
-  Said said{weights(workers), {}, 0.0};
-  evidence.weigh(samples_, said.logs);
+  std::vector<float> logs;
+  evidence.weigh(samples_, logs);
+  return said(std::move(logs), workers);
+}
+
+Hypothesis::Said Hypothesis::said(std::vector<float> logs, Workers* workers) const {
+  Said said{weights(workers), std::move(logs), 0.0};
   said.logEvidence = logMean(said.before, said.logs, workers);
   return said;
 }
@@ -56,7 +61,7 @@ SampleSet Hypothesis::climbed(const Said& said, const Evidence& evidence, const 
                       climb.from)
           : Annealing(evidence.weigh, nullptr);
   const auto drawn = lowVariance(said.before, climb.from, climb.offset.uniform());
-  return annealing.draw(taken(samples_, drawn), climb.to, climb.random).samples;
+  return annealing.draw(taken(samples_, drawn), climb.to, climb.random, climb.isOver).samples;
 }
 
 bool Hypothesis::count(double ratio, double part, bool isUsual) {

@@ -50,6 +50,7 @@ class ORTUNG_API Hypothesis {
     Random random;     ///< random numbers of the Metropolis steps
     /// Whether the belief is the prior of the steps; otherwise it is uniform.
     bool isOfBelief = true;
+    IsOver isOver = {};  ///< hastens the annealing
   };
 
   explicit Hypothesis(SampleSet samples = {}, Lead lead = Lead())
@@ -62,6 +63,10 @@ class ORTUNG_API Hypothesis {
   void add(const SampleSet& fresh, double share);
   /// Keeps the first @p n samples. @pre n <= size()
   void keepFirst(std::size_t n) { samples_.resize(n); }
+  /// Leaves out samples. @param isLeftOut says which ones by their number
+  /// @param logs a value for each sample, which are left out, too
+  template <class IsLeftOut>
+  void leaveOut(const IsLeftOut& isLeftOut, std::vector<float>& logs);
   /// Scales the weights so that the largest is 1, to keep the numbers small; only their ratios
   /// matter.
   void scaleWeights();
@@ -76,6 +81,8 @@ class ORTUNG_API Hypothesis {
   void move(std::size_t number, const MoveSome& moveSome, Workers* workers = nullptr);
 
   Said ask(const Evidence& evidence, Workers* workers = nullptr) const;
+  /// Returns what ask() does, from likelihoods that are known already.
+  Said said(std::vector<float> logs, Workers* workers = nullptr) const;
   /// Weighs the samples by the readings (eq. 7).
   /// @param below effective sample size: if fewer are left, hardly any sample is near the peak of
   ///   the likelihood, and the readings are annealed
@@ -108,6 +115,21 @@ class ORTUNG_API Hypothesis {
   Lead lead_;
   int unusual_ = 0;
 };
+
+template <class IsLeftOut>
+void Hypothesis::leaveOut(const IsLeftOut& isLeftOut, std::vector<float>& logs) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (isLeftOut(i)) continue;
+    samples_.x[kept] = samples_.x[i];
+    samples_.y[kept] = samples_.y[i];
+    samples_.theta[kept] = samples_.theta[i];
+    samples_.logWeight[kept] = samples_.logWeight[i];
+    logs[kept++] = logs[i];
+  }
+  samples_.resize(kept);
+  logs.resize(kept);
+}
 
 template <class MoveSome>
 void Hypothesis::move(std::size_t number, const MoveSome& moveSome, Workers* workers) {

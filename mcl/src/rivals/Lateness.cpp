@@ -128,11 +128,31 @@ void Lateness::move(Hypothesis& hypothesis, const Pose2& change, const Moment& m
   });
 }
 
+/// Returns the time since the last readings [s].
+double Lateness::gapTo(Timestamp stamp) const {
+  return belief_.before ? toSeconds(stamp - *belief_.before) : 0.0;
+}
+
+bool Lateness::isLongGap(double gap) const {
+  return belief_.usualGap > 0.0 && gap > kLongGap * belief_.usualGap;
+}
+
+// Samples are weighed, and once more when they are annealed.
+std::size_t Lateness::posesFor(const Moment& moment) const {
+  if (!belief_.jumps.empty()) return 2 * kSamples * belief_.jumps.size();
+  const double gap = gapTo(moment.stamp);
+  if (!moment.isDoubtful && !isLongGap(gap)) return 0;
+  std::size_t delays = 0;
+  for (std::size_t i = 0; i < Delays::kCount; ++i)
+    if (mayBegin(i, gap)) ++delays;
+  return 2 * kSamples * delays;
+}
+
 std::optional<Lateness::Change> Lateness::follow(const Moment& moment, const Recovery& recovery,
                                                  const Evidence& evidence) {
   if (!belief_.anchor || moment.stamp <= belief_.anchor->stamp) return std::nullopt;
-  const double gap = belief_.before ? toSeconds(moment.stamp - *belief_.before) : 0.0;
-  const bool isLonger = belief_.usualGap > 0.0 && gap > kLongGap * belief_.usualGap;
+  const double gap = gapTo(moment.stamp);
+  const bool isLonger = isLongGap(gap);
   if (!isLonger) compare(moment);
   goOn(moment, recovery, evidence);
   if (belief_.jumps.empty() && (moment.isDoubtful || isLonger)) begin(moment, gap, evidence);
@@ -164,7 +184,7 @@ void Lateness::compare(const Moment& moment) {
 double Lateness::weigh(Jump& jump, const Moment& moment, const Evidence& evidence) const {
   const auto climb = [&] {
     Random random = Random(config_.seed, moment.stream).fork(3 + jump.delay);
-    return Hypothesis::Climb{kSamples, kSamples, random, random.fork(1)};
+    return Hypothesis::Climb{kSamples, kSamples, random, random.fork(1), true, moment.isOver};
   };
   return jump.hypothesis.weigh(evidence, config_, kEffective, climb).logEvidence -
          moment.logEvidence;

@@ -41,6 +41,7 @@ class ORTUNG_API Lateness {
     bool isDoubtful = false;   ///< whether the belief does not fit them
     PoseEstimate estimate;     ///< estimate after they were weighed
     std::uint64_t stream = 0;  ///< stream of random numbers
+    IsOver isOver = {};        ///< hastens annealing
   };
   /// A change of the delay in force.
   struct Change {
@@ -80,6 +81,8 @@ class ORTUNG_API Lateness {
   /// @param estimate estimate of the belief
   void keep(const SampleSet& belief, std::span<const double> weights, const PoseEstimate& estimate,
             Timestamp stamp);
+  /// Returns the greatest number of poses that follow() weighs, unless there is time for more.
+  std::size_t posesFor(const Moment& moment) const;
   /// Follows the delay by one time step's readings. @returns the change of the delay in force, if
   ///   any
   /// @param recovery, evidence of the same readings
@@ -111,6 +114,8 @@ class ORTUNG_API Lateness {
     std::vector<Jump> jumps;
   };
   std::optional<Pose2> odometryAt(Timestamp stamp, std::size_t delay) const;
+  double gapTo(Timestamp stamp) const;
+  bool isLongGap(double gap) const;
   Odometry odometryByDelay(Timestamp stamp) const;
   std::array<Pose2, Delays::kCount> placesAt(Timestamp stamp, const Pose2& inForce) const;
   void move(Hypothesis& hypothesis, const Pose2& change, const Moment& moment) const;

@@ -36,6 +36,10 @@ void Lookalikes::forget() {
   odometry_.reset();
 }
 
+std::size_t Lookalikes::poses() const {
+  return places_.empty() ? 0 : (places_.size() + 1) * lookalikes::kTried;
+}
+
 void Lookalikes::follow(const Moment& moment, const Evidence& evidence) {
   const Pose2 before = std::exchange(estimate_, moment.estimate);
   const std::optional<Pose2> from = std::exchange(odometry_, moment.odometry);

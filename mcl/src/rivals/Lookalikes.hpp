@@ -36,6 +36,8 @@ class ORTUNG_API Lookalikes {
 
   void forget();
   bool isEmpty() const { return places_.empty(); }
+  /// Returns how many poses follow() weighs.
+  std::size_t poses() const;
   /// Compares the places with the estimate. If that is at one of them now, they change roles.
   void follow(const Moment& moment, const Evidence& evidence);
   /// Adds the belief's places, if they are new. @param places the estimate's is the first one

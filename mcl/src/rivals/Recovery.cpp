@@ -29,6 +29,14 @@ SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights,
   return witnesses;
 }
 
+/// Returns whether a reading can distinguish poses. @param floor ln p outside of the map
+bool isVoice(double floor) { return floor < 0.0 && std::isfinite(floor); }
+
+/// Returns how well a reading is explained. @param mean mean of its ln p
+double explained(double mean, double floor) {
+  return std::isfinite(mean) ? std::clamp(1.0 - mean / floor, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 std::optional<double> fitOf(std::span<const Weigher* const> readings, const SampleSet& samples,
@@ -41,14 +49,40 @@ std::optional<double> fitOf(std::span<const Weigher* const> readings, const Samp
     std::fill(logs.begin(), logs.end(), 0.0F);
     reading->getProbability(witnesses.view(), logs);
     const auto floor = static_cast<double>(logs.back());
-    if (!(floor < 0.0) || !std::isfinite(floor)) continue;
+    if (!isVoice(floor)) continue;
     const double mean =
         std::accumulate(logs.begin(), logs.end() - 1, 0.0) / static_cast<double>(kWitnesses);
-    sum += std::isfinite(mean) ? std::clamp(1.0 - mean / floor, 0.0, 1.0) : 0.0;
+    sum += explained(mean, floor);
     voices += 1.0;
   }
   if (voices == 0.0) return std::nullopt;
   return sum / voices;
+}
+
+std::vector<double> fitsAt(std::span<const Weigher* const> readings, std::span<const Pose2> poses) {
+  const std::size_t n = poses.size();
+  SampleSet set;
+  set.resize(n + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    set.x[i] = static_cast<float>(poses[i].x);
+    set.y[i] = static_cast<float>(poses[i].y);
+    set.theta[i] = static_cast<float>(poses[i].theta);
+  }
+  set.x.back() = set.y.back() = std::numeric_limits<float>::quiet_NaN();
+  set.theta.back() = 0.0F;
+  std::vector<double> fits(n, 0.0);
+  double voices = 0.0;
+  for (const Weigher* reading : readings) {
+    std::fill(set.logWeight.begin(), set.logWeight.end(), 0.0F);
+    reading->getProbability(set.view(), set.logWeight);
+    const auto floor = static_cast<double>(set.logWeight.back());
+    if (!isVoice(floor)) continue;
+    for (std::size_t i = 0; i < n; ++i)
+      fits[i] += explained(static_cast<double>(set.logWeight[i]), floor);
+    voices += 1.0;
+  }
+  for (double& fit : fits) fit = voices > 0.0 ? fit / voices : 0.0;
+  return fits;
 }
 
 Recovery::Recovery(const MclConfig& config)

@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "ortung/base/Export.hpp"
+#include "ortung/base/Pose2.hpp"
 #include "ortung/core/Weigher.hpp"
 #include "ortung/mcl/MclConfig.hpp"
 #include "ortung/mcl/SampleSet.hpp"
@@ -19,6 +21,11 @@ class Workers;
 ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
                                        const SampleSet& samples, std::span<const double> weights,
                                        Workers* workers = nullptr);
+
+/// Returns the same for the belief that the robot is at one of these poses, for each of them; zero
+/// if no reading can distinguish a pose from one outside of the map.
+ORTUNG_API std::vector<double> fitsAt(std::span<const Weigher* const> readings,
+                                      std::span<const Pose2> poses);
 
 /// Detects localization failures from how well the belief explains readings: if the short-term
 /// average of the fit falls below the long-term one (as Thrun, Burgard, Fox, table 8.3, but with a

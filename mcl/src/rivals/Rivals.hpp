@@ -69,7 +69,7 @@ class ORTUNG_API Rivals {
 
   /// All arguments are borrowed.
   Rivals(const MclConfig& config, const FieldRegion& region, const PoseSearch& search,
-         const MotionModel& motion, const UpdateTime& time, Workers& workers)
+         const MotionModel& motion, UpdateTime& time, Workers& workers)
       : config_(config),
         region_(region),
         search_(search),
@@ -100,6 +100,7 @@ class ORTUNG_API Rivals {
     double open = 0.0;  ///< standard deviation of metres and radians together
     Timestamp stamp = 0;
     OdometryTrust trust = {};
+    double waited = 0.0;  ///< travelled since readings counted [m]
   };
   struct Elsewhere {
     Hypothesis hypothesis;
@@ -107,6 +108,7 @@ class ORTUNG_API Rivals {
     /// two searches have found it.
     bool isDistinct = false;
     double travelled = 0.0;
+    double waited = 0.0;  ///< travelled since readings counted [m]
     int readings = 0;
     Lead before = Lead();  ///< its lead before the newest readings counted
     bool isConfirmed() const;
@@ -126,7 +128,11 @@ class ORTUNG_API Rivals {
                                      const Evidence& evidence);
   void drawAround(const Moment& moment, const Evidence& evidence);
   double weighAround(const Moment& moment, const Evidence& evidence);
-  double travelledAround(const Moment& moment);
+  /// Returns how long the readings take for so many poses.
+  double timeOf(double poses, const Moment& moment) const;
+  /// Returns the share of so many poses that there is time for, at least @p least and at most 1.
+  double shareInTime(double poses, double least, const Moment& moment) const;
+  double travelledAround();
   std::optional<Takeover> lookElsewhere(const Moment& moment, const Recovery& recovery,
                                         const Evidence& evidence);
   std::optional<Takeover> followElsewhere(const Moment& moment, const Recovery& recovery,
@@ -137,6 +143,7 @@ class ORTUNG_API Rivals {
   void search(const Moment& moment, const Recovery& recovery);
   Finding judge(const Searching& done, const Recovery& recovery);
   void drawElsewhere(const Moment& moment, const Recovery& recovery);
+  void drawIfDone(const Moment& moment, const Recovery& recovery);
   SampleSet drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Moment& then) const;
   void carryOn(Hypothesis& drawn, const Moment& then, const Moment& now) const;
 
@@ -144,7 +151,7 @@ class ORTUNG_API Rivals {
   const FieldRegion& region_;
   const PoseSearch& search_;
   const MotionModel& motion_;
-  const UpdateTime& time_;
+  UpdateTime& time_;
   Workers& workers_;
   std::optional<Timestamp> doubtSince_;
   std::optional<Around> around_;

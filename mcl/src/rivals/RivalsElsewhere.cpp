@@ -1,6 +1,5 @@
 // Hypotheses elsewhere: what a search of the whole field has found.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -21,15 +20,8 @@ using namespace tuning;
 
 namespace {
 
-/// Returns how well readings fit at a place.
-double fitAt(const Pose2& place, const std::vector<const Weigher*>& readings) {
-  SampleSet one;
-  one.resize(1);
-  one.x[0] = static_cast<float>(place.x);
-  one.y[0] = static_cast<float>(place.y);
-  one.theta[0] = static_cast<float>(place.theta);
-  return fitOf(readings, one, std::array{1.0}).value_or(0.0);
-}
+/// Candidates of a drawing from what a search has found.
+const double kDrawn = static_cast<double>(field::kCandidates * elsewhere::kSamples);
 
 /// What a search has found.
 struct Found {
@@ -41,9 +33,10 @@ Found foundBy(std::span<const FieldSearch::Place> places, const Rivals::Moment& 
               const Recovery& recovery) {
   std::vector<const Weigher*> readings;
   for (const auto& reading : moment.readings) readings.push_back(reading.get());
-  std::vector<double> fits;
-  for (const FieldSearch::Place& place : places) fits.push_back(fitAt(place.pose, readings));
-  if (fits.empty()) return {};
+  std::vector<Pose2> poses;
+  for (const FieldSearch::Place& place : places) poses.push_back(place.pose);
+  if (poses.empty()) return {};
+  const std::vector<double> fits = fitsAt(readings, poses);
   const double enough = elsewhere::kAsWell * fits.front();
   return {static_cast<int>(std::ranges::count_if(fits, [&](double fit) { return fit >= enough; })),
           fits.front() >= elsewhere::kWell && recovery.isUsual(fits.front()), moment.fit < enough};
@@ -58,11 +51,17 @@ bool Rivals::Elsewhere::isConfirmed() const {
 std::optional<Rivals::Takeover> Rivals::lookElsewhere(const Moment& moment,
                                                       const Recovery& recovery,
                                                       const Evidence& evidence) {
-  // What was found since the last readings is weighed by these already.
-  if (searching_ && searching_->job.isDone()) drawElsewhere(moment, recovery);
-  std::optional<Takeover> takeover;
-  if (elsewhere_) takeover = followElsewhere(moment, recovery, evidence);
   travelledSinceSearch_ += moment.travelled;
+  // What was found since the last readings is weighed by these already.
+  drawIfDone(moment, recovery);
+  std::optional<Takeover> takeover;
+  if (elsewhere_) {
+    elsewhere_->waited += moment.travelled;
+    const auto samples = static_cast<double>(elsewhere_->hypothesis.samples().size());
+    const UpdateTime::Step begins(time_, Work::kElsewhere,
+                                  timeOf((1.0 + elsewhere::kLeastShare) * samples, moment));
+    if (begins) takeover = followElsewhere(moment, recovery, evidence);
+  }
   if (!takeover && mayFindBetter()) {
     search(moment, recovery);
     if (elsewhere_) takeover = takeOver(moment);
@@ -78,9 +77,10 @@ std::optional<Rivals::Takeover> Rivals::followElsewhere(const Moment& moment,
   const double ratio = weighElsewhere(moment, evidence);
   const double fit = evidence.fit(rival.samples());
   const double most = fit < elsewhere::kWell ? lead::kMostNatsOfAReading : std::abs(ratio);
-  rival.count(std::clamp(ratio, -most, most), moment.travelled / common::kIndependent,
+  const double travelled = std::exchange(elsewhere_->waited, 0.0);
+  rival.count(std::clamp(ratio, -most, most), travelled / common::kIndependent,
               recovery.isUsual(fit));
-  elsewhere_->travelled += moment.travelled;
+  elsewhere_->travelled += travelled;
   ++elsewhere_->readings;
   if (auto takeover = takeOver(moment)) return takeover;
   if (rival.lead().isHopeless() || rival.unusual() >= elsewhere::kMostUnusual ||
@@ -109,8 +109,12 @@ double Rivals::weighElsewhere(const Moment& moment, const Evidence& evidence) {
   Hypothesis& rival = elsewhere_->hypothesis;
   const Random random = Random(config_.seed, moment.stream).fork(2);
   const auto climb = [&] {
-    return Hypothesis::Climb{rival.samples().size(), elsewhere::kSamples, random.fork(0),
-                             random.fork(1)};
+    const std::size_t all = rival.samples().size();
+    const double share = shareInTime(static_cast<double>(all), elsewhere::kLeastShare, moment);
+    const auto from = static_cast<std::size_t>(share * static_cast<double>(all));
+    return Hypothesis::Climb{
+        std::max<std::size_t>(from, 1), all, random.fork(0), random.fork(1), true,
+        time_.endOf(Work::kAnnealing)};
   };
   return rival.weigh(evidence, config_, elsewhere::kEffective, climb).logEvidence -
          moment.logEvidence;
@@ -127,9 +131,11 @@ bool Rivals::mayFindBetter() const {
 
 /// Begins a search of the field, if the fit of the readings calls for it, and continues it.
 void Rivals::search(const Moment& moment, const Recovery& recovery) {
+  if (searching_ && searching_->job.isDone()) return;  // there was no time to draw from it
   if (!searching_ && (recovery.callsForSearch() || recovery.unusual() > 0)) {
     FieldSearch::Settings settings;
     settings.workers = &workers_;
+    settings.cover = search_.cover();
     searching_.emplace(Searching{FieldSearch(region_, settings), moment,
                                  elsewhere_ ? elsewhere_->before : Lead()});
     travelledSinceSearch_ = 0.0;
@@ -137,7 +143,15 @@ void Rivals::search(const Moment& moment, const Recovery& recovery) {
   }
   if (!searching_) return;
   searchOn();
-  if (searching_->job.isDone()) drawElsewhere(moment, recovery);
+  drawIfDone(moment, recovery);
+}
+
+/// Draws from what a search has found, once there is time.
+void Rivals::drawIfDone(const Moment& moment, const Recovery& recovery) {
+  if (!searching_ || !searching_->job.isDone()) return;
+  const UpdateTime::Step begins(time_, Work::kDrawing,
+                                timeOf(elsewhere::kLeastShare * kDrawn, searching_->moment));
+  if (begins) drawElsewhere(moment, recovery);
 }
 
 /// Judges what a search has found.
@@ -192,9 +206,11 @@ SampleSet Rivals::drawnFrom(const std::vector<PoseSearch::Ring>& rings, const Mo
   const auto weigh = [&](const SampleSet& set, std::vector<float>& out) {
     ortung::weigh(news, set, &workers_, out);
   };
+  const double share = shareInTime(kDrawn, elsewhere::kLeastShare, then);
+  const auto samples = static_cast<std::size_t>(share * static_cast<double>(elsewhere::kSamples));
   return search_
-      .drawFrom(rings, elsewhere::kSamples, static_cast<double>(field::kCandidates), weigh,
-                Random(config_.seed, then.stream).fork(2))
+      .drawFrom(rings, samples, static_cast<double>(field::kCandidates), weigh,
+                Random(config_.seed, then.stream).fork(2), time_.endOf(Work::kAnnealing))
       .samples;
 }
 

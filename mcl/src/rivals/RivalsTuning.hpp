@@ -46,6 +46,9 @@ ORTUNG_CONSTANT(around, kSamples, std::size_t{400});
 ORTUNG_CONSTANT(around, kSpread, std::size_t{1000});
 /// Candidates for each sample. Cost.
 ORTUNG_CONSTANT(around, kCandidates, 10.0);
+/// [share] Least share of the candidates, and of the samples that follow odometry or spread, with
+/// which a hypothesis is worth while if there is not time for all. Chosen by hand.
+ORTUNG_CONSTANT(around, kLeastShare, 0.4);
 
 }  // namespace around
 
@@ -70,6 +73,9 @@ ORTUNG_CONSTANT(elsewhere, kMostUnusual, 4);
 ORTUNG_CONSTANT(elsewhere, kSamples, std::size_t{1000});
 /// Effective sample size below which the hypothesis is annealed. Chosen by hand: a tenth.
 ORTUNG_CONSTANT(elsewhere, kEffective, 100.0);
+/// [share] Least share of the samples with which a hypothesis is drawn, and annealed, if there is
+/// not time for all. Chosen by hand.
+ORTUNG_CONSTANT(elsewhere, kLeastShare, 0.1);
 
 }  // namespace elsewhere
 

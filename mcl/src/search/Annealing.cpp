@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "Resampling.hpp"
 #include "SearchTuning.hpp"
 #include "ortung/base/Pose2.hpp"
 
@@ -33,13 +32,14 @@ std::vector<float> scaled(const std::vector<float>& values, double factor) {
   return products;
 }
 
-/// Returns what temperFor() does, from a regular subset if there are very many weights.
-double temperOf(const std::vector<float>& logWeights, double least) {
+/// Returns what finds the exponent that temperFor() does, from a regular subset if there are very
+/// many weights.
+Tempering temperingOf(const std::vector<float>& logWeights, double least) {
   const std::size_t stride = (logWeights.size() + kMostTempered - 1) / kMostTempered;
-  if (stride <= 1) return temperFor(logWeights, least);
+  if (stride <= 1) return {logWeights, least};
   std::vector<float> some;
   for (std::size_t i = 0; i < logWeights.size(); i += stride) some.push_back(logWeights[i]);
-  return temperFor(some, least / static_cast<double>(stride));
+  return {std::move(some), least / static_cast<double>(stride)};
 }
 
 }  // namespace
@@ -69,10 +69,10 @@ Annealing::Annealing(Weigh weigh, const PoseCovariance& covariance, std::size_t 
   mostRadians_ = std::sqrt(surroundings(2, 2));
 }
 
-Annealing::Drawn Annealing::draw(SampleSet from, std::size_t n, const Random& random) const {
+Annealing::Drawn Annealing::draw(SampleSet from, std::size_t n, const Random& random,
+                                 const IsOver& isOver) const {
   Draw drawing(*this, std::move(from), n, random);
-  while (drawing.work(std::numeric_limits<std::size_t>::max()) > 0) {
-  }
+  drawing.finish(isOver);
   return drawing.take();
 }
 
@@ -82,11 +82,33 @@ Annealing::Draw::Draw(Annealing annealing, SampleSet from, std::size_t n, const 
       random_(random),
       offsets_(random.fork(1)),
       climb_(random),
-      weighing_(std::move(from)),
-      isDone_(n == 0) {}
+      stage_(n == 0 ? Stage::kDone : Stage::kWeigh),
+      weighing_(std::move(from)) {}
 
 std::size_t Annealing::Draw::work(std::size_t most) {
-  if (isDone_) return 0;
+  switch (stage_) {
+    case Stage::kPropose:
+      propose(most);
+      break;
+    case Stage::kWeigh:
+      return weigh(most);
+    case Stage::kTemper:
+      temper();
+      break;
+    case Stage::kRise:
+      rise();
+      break;
+    case Stage::kAccept:
+      accept(most);
+      break;
+    case Stage::kDone:
+      break;
+  }
+  return 0;
+}
+
+/// The first pass weighs the initial samples, each later one the proposals of a Metropolis step.
+std::size_t Annealing::Draw::weigh(std::size_t most) {
   const std::size_t first = fit_.size();
   const std::size_t count = std::min(weighing_.size() - first, most);
   const bool isWhole = count == weighing_.size();
@@ -96,35 +118,77 @@ std::size_t Annealing::Draw::work(std::size_t most) {
     fit_ = std::move(some);
   else
     fit_.insert(fit_.end(), some.begin(), some.end());
-  if (fit_.size() == weighing_.size()) endPass();
+  if (fit_.size() < weighing_.size()) return count;
+  if (rises_ > 0) {
+    stage_ = Stage::kAccept;
+    next_ = 0;
+    return count;
+  }
+  climbing_ = {std::move(weighing_), {}, std::move(fit_)};
+  if (annealing_.isOfBelief_) climbing_.origins = climbing_.set;
+  beginRise();
   return count;
 }
 
-/// Continues once all poses of a pass are weighed: the first pass weighs the initial samples, each
-/// later one the proposals of a Metropolis step.
-void Annealing::Draw::endPass() {
-  if (rises_ == 0) {
-    climbing_ = {std::move(weighing_), {}, std::move(fit_)};
-    if (annealing_.isOfBelief_) climbing_.origins = climbing_.set;
-    rise();
-    return;
-  }
-  annealing_.accept(climbing_, weighing_, fit_, exponent_, climb_);
-  if (++step_ == std::size(kStepMetres)) {
-    rise();
-    return;
-  }
-  weighing_ = annealing_.proposed(climbing_.set, step_, climb_);
+void Annealing::Draw::beginStep() {
+  stage_ = Stage::kPropose;
+  next_ = 0;
+  weighing_.resize(climbing_.set.size());
+  std::fill(weighing_.logWeight.begin(), weighing_.logWeight.end(), 0.0F);
+}
+
+void Annealing::Draw::propose(std::size_t most) {
+  const std::size_t count = std::min(weighing_.size() - next_, most);
+  annealing_.propose(climbing_.set, step_, climb_, next_, count, weighing_);
+  next_ += count;
+  if (next_ < weighing_.size()) return;
+  stage_ = Stage::kWeigh;
   fit_.clear();
 }
 
-void Annealing::Draw::rise() {
+void Annealing::Draw::accept(std::size_t most) {
+  const std::size_t count = std::min(weighing_.size() - next_, most);
+  annealing_.accept(climbing_, weighing_, fit_, exponent_, climb_, next_, count);
+  next_ += count;
+  if (next_ < weighing_.size()) return;
+  if (++step_ == std::size(kStepMetres))
+    beginRise();
+  else
+    beginStep();
+}
+
+void Annealing::Draw::finish(const IsOver& isOver) {
+  while (!isDone()) {
+    if (isNow(isOver)) hasten();
+    work(isOver ? kTimedPoses : std::numeric_limits<std::size_t>::max());
+  }
+}
+
+/// Leaves out what is left of the annealing: what the exponents lack of 1 stays in the samples'
+/// weights. Only the initial samples must still be weighed.
+void Annealing::Draw::hasten() {
+  isHastened_ = true;
+  if (rises_ > 0 && !isDone()) end();
+}
+
+void Annealing::Draw::beginRise() {
   if (exponent_ >= 1.0 || rises_ == kMostRises) {
-    finish();
+    end();
     return;
   }
+  stage_ = Stage::kTemper;
+  tempering_ =
+      temperingOf(scaled(climbing_.fit, 1.0 - exponent_), kWorth * static_cast<double>(n_));
+}
+
+void Annealing::Draw::temper() {
+  if (tempering_->narrow()) stage_ = Stage::kRise;
+}
+
+void Annealing::Draw::rise() {
+  const double share = tempering_->exponent();
+  tempering_.reset();
   const std::vector<float> rest = scaled(climbing_.fit, 1.0 - exponent_);
-  const double share = temperOf(rest, kWorth * static_cast<double>(n_));
   const std::vector<float> risen = scaled(rest, share);
   logEvidence_ += logMean(risen);
   const auto indices = lowVariance(normalized(risen), n_, offsets_.uniform());
@@ -134,14 +198,16 @@ void Annealing::Draw::rise() {
   climbing_.fit = taken(climbing_.fit, indices);
   climb_ = random_.fork(2 + static_cast<std::uint64_t>(rises_++));
   step_ = 0;
-  weighing_ = annealing_.proposed(climbing_.set, step_, climb_);
-  fit_.clear();
+  if (isHastened_)
+    end();
+  else
+    beginStep();
 }
 
-void Annealing::Draw::finish() {
+void Annealing::Draw::end() {
   climbing_.set.logWeight = scaled(climbing_.fit, 1.0 - exponent_);
   logEvidence_ += logMean(climbing_.set.logWeight);
-  isDone_ = true;
+  stage_ = Stage::kDone;
 }
 
 double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float y,
@@ -153,25 +219,24 @@ double Annealing::logPriorOf(const Climbing& some, std::size_t i, float x, float
   return -0.5 * off.dot(Eigen::Map<const Eigen::Matrix3d>(precision_.data()) * off);
 }
 
-/// Returns the proposals of a Metropolis step for a set of samples.
-SampleSet Annealing::proposed(const SampleSet& set, std::size_t step, Random& random) const {
+/// Makes some of the proposals of a Metropolis step.
+void Annealing::propose(const SampleSet& set, std::size_t step, Random& random, std::size_t first,
+                        std::size_t count, SampleSet& proposed) const {
   const double metres = std::min(kStepMetres[step], mostMetres_);
   const double radians = std::min(kStepRadians[step], mostRadians_);
-  SampleSet proposed;
-  proposed.resize(set.size());
-  for (std::size_t i = 0; i < set.size(); ++i) {
+  for (std::size_t i = first; i < first + count; ++i) {
     proposed.x[i] = set.x[i] + static_cast<float>(metres * random.gaussian());
     proposed.y[i] = set.y[i] + static_cast<float>(metres * random.gaussian());
     proposed.theta[i] = set.theta[i] + static_cast<float>(radians * random.gaussian());
   }
-  return proposed;
 }
 
 /// The acceptance of Metropolis: the invariant distribution is p^exponent times the prior.
 void Annealing::accept(Climbing& some, const SampleSet& proposed,
-                       std::span<const float> proposedFit, double exponent, Random& random) const {
+                       std::span<const float> proposedFit, double exponent, Random& random,
+                       std::size_t first, std::size_t count) const {
   SampleSet& set = some.set;
-  for (std::size_t i = 0; i < set.size(); ++i) {
+  for (std::size_t i = first; i < first + count; ++i) {
     const double gain = exponent * static_cast<double>(proposedFit[i] - some.fit[i]) +
                         logPriorOf(some, i, proposed.x[i], proposed.y[i], proposed.theta[i]) -
                         logPriorOf(some, i, set.x[i], set.y[i], set.theta[i]);

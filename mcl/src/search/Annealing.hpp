@@ -2,11 +2,15 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "IsOver.hpp"
+#include "Resampling.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Random.hpp"
@@ -42,7 +46,8 @@ class ORTUNG_API Annealing {
   class Draw;
   /// Draws @p n poses from the initial distribution times p(s|l).
   /// @param from samples of the initial distribution; their weights are not used
-  Drawn draw(SampleSet from, std::size_t n, const Random& random) const;
+  /// @param isOver hastens the draw, see Draw::finish()
+  Drawn draw(SampleSet from, std::size_t n, const Random& random, const IsOver& isOver = {}) const;
 
  private:
   struct Climbing {
@@ -51,9 +56,10 @@ class ORTUNG_API Annealing {
     std::vector<float> fit;
   };
   double logPriorOf(const Climbing& some, std::size_t i, float x, float y, float theta) const;
-  SampleSet proposed(const SampleSet& set, std::size_t step, Random& random) const;
+  void propose(const SampleSet& set, std::size_t step, Random& random, std::size_t first,
+               std::size_t count, SampleSet& proposed) const;
   void accept(Climbing& some, const SampleSet& proposed, std::span<const float> proposedFit,
-              double exponent, Random& random) const;
+              double exponent, Random& random, std::size_t first, std::size_t count) const;
 
   Weigh weigh_;
   Within within_;
@@ -69,18 +75,33 @@ class ORTUNG_API Annealing::Draw {
  public:
   Draw(Annealing annealing, SampleSet from, std::size_t n, const Random& random);
 
-  /// Weighs the next poses.
-  /// @param most greatest number of poses to weigh, at least 1
-  /// @returns how many were weighed; 0: the annealing is done
+  /// Goes on with the next poses: proposes, weighs or accepts them. Or takes a step of raising the
+  /// exponent, which is a look at all of them.
+  /// @param most greatest number of them, at least 1
+  /// @returns how many were weighed, which is what takes time
   std::size_t work(std::size_t most);
-  bool isDone() const { return isDone_; }
+  bool isDone() const { return stage_ == Stage::kDone; }
+  /// Returns the number of samples. @pre isDone()
+  std::size_t size() const { return climbing_.set.size(); }
+  /// Does all that is left. @param isOver leaves out what is left of the annealing, so that what
+  ///   the exponents lack of 1 stays in the samples' weights; only initial samples are still
+  ///   weighed
+  void finish(const IsOver& isOver);
   /// @pre isDone()
   Drawn take() { return {std::move(climbing_.set), logEvidence_}; }
 
  private:
-  void endPass();
+  enum class Stage : std::uint8_t { kWeigh, kTemper, kRise, kPropose, kAccept, kDone };
+
+  std::size_t weigh(std::size_t most);
+  void propose(std::size_t most);
+  void accept(std::size_t most);
+  void beginStep();
+  void beginRise();
+  void temper();
   void rise();
-  void finish();
+  void hasten();
+  void end();
 
   Annealing annealing_;
   std::size_t n_;
@@ -88,13 +109,16 @@ class ORTUNG_API Annealing::Draw {
   Random offsets_;
   Random climb_;  ///< random numbers of the Metropolis steps at the present exponent
   Climbing climbing_;
+  Stage stage_ = Stage::kWeigh;
+  std::size_t next_ = 0;    ///< first pose that the stage has not treated yet
   SampleSet weighing_;      ///< at first the initial samples, later the proposed poses
   std::vector<float> fit_;  ///< ln p of the first poses of weighing_
   std::size_t step_ = 0;    ///< number of the Metropolis step at the present exponent
   int rises_ = 0;
+  std::optional<Tempering> tempering_;  ///< by how much the exponent rises
   double exponent_ = 0.0;
   double logEvidence_ = 0.0;
-  bool isDone_ = false;
+  bool isHastened_ = false;
 };
 
 }  // namespace ortung

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -28,6 +27,8 @@ constexpr std::size_t kBatch = 8 * kChunk;
 constexpr std::size_t kParts = 8;  ///< parts that a pose is divided into
 /// Candidates of a climbing step: the pose and 6 neighbours.
 constexpr std::size_t kNeighbours = 7;
+/// Candidates that are considered at once: each is compared with up to two hundred others.
+constexpr std::size_t kConsidered = 64;
 
 void require(bool holds, const char* what, double value) {
   if (!holds)
@@ -47,39 +48,9 @@ void FieldSearch::Settings::check() const {
 }
 
 FieldSearch::FieldSearch(const FieldRegion& region, const Settings& settings)
-    : region_(region), settings_(settings) {
+    : region_(region), settings_(settings), cover_(settings.cover) {
   settings_.check();
-  makeCover();
-}
-
-/// Divides the floor into square blocks of cells, and takes from each the standable cell nearest to
-/// its centre, so that narrow places are covered, too.
-void FieldSearch::makeCover() {
-  const FieldGrid& grid = region_.grid;
-  const int edge = std::max(1, static_cast<int>(std::lround(settings_.spacing / grid.cell)));
-  spacingOfCover_ = edge * grid.cell;
-  const int columns = (grid.columns + edge - 1) / edge;
-  const int rows = (grid.rows + edge - 1) / edge;
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  struct Nearest {
-    int squared = std::numeric_limits<int>::max();
-    std::size_t cell = kNone;
-  };
-  std::vector<Nearest> blocks(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  for (std::size_t cell = 0; cell < region_.standable.size(); ++cell) {
-    if (region_.standable[cell] == 0) continue;
-    const int column = static_cast<int>(cell % static_cast<std::size_t>(grid.columns));
-    const int row = static_cast<int>(cell / static_cast<std::size_t>(grid.columns));
-    const int across = 2 * (column % edge) - edge + 1;
-    const int along = 2 * (row % edge) - edge + 1;
-    const int squared = across * across + along * along;
-    Nearest& block =
-        blocks[static_cast<std::size_t>(row / edge) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column / edge)];
-    if (squared < block.squared) block = {squared, cell};
-  }
-  for (const Nearest& block : blocks)
-    if (block.cell != kNone) cover_.push_back(static_cast<std::uint32_t>(block.cell));
+  if (!cover_) cover_ = std::make_shared<FieldCover>(region, settings.spacing);
 }
 
 FieldSearch::Readings FieldSearch::blurredBy(const PoseResolution& spread) const {
@@ -100,14 +71,15 @@ void FieldSearch::begin(std::vector<std::shared_ptr<const Weigher>> readings) {
   parents_.clear();
   kept_.clear();
   isPruned_ = false;
+  choice_.reset();
   next_ = 0;
   worked_ = 0.0;
   double nanoseconds = 0.0;
   for (const auto& reading : readings) nanoseconds += nominalNanoseconds(*reading);
   sharp_ = {std::move(readings), nanoseconds};
-  spacing_ = spacingOfCover_;
+  spacing_ = cover_->spacing;
   turn_ = 2.0 * std::numbers::pi / settings_.headings;
-  const bool isNothing = cover_.empty() || sharp_.weighers.empty();
+  const bool isNothing = cover_->cells.empty() || sharp_.weighers.empty();
   stage_ = isNothing ? Stage::kDone : Stage::kCover;
   if (isNothing) return;
   present_ = blurredBy({kBlur * spacing_, kBlur * turn_});
@@ -115,14 +87,15 @@ void FieldSearch::begin(std::vector<std::shared_ptr<const Weigher>> readings) {
 }
 
 std::size_t FieldSearch::posesInStage() const {
-  if (stage_ == Stage::kCover) return cover_.size() * static_cast<std::size_t>(settings_.headings);
+  if (stage_ == Stage::kCover)
+    return cover_->cells.size() * static_cast<std::size_t>(settings_.headings);
   return parents_.size() * (stage_ == Stage::kDivide ? kParts : kNeighbours);
 }
 
 Pose2 FieldSearch::poseAt(std::size_t number) const {
   if (stage_ == Stage::kCover) {  // all headings of a cell in a row, while it is cached
     const auto headings = static_cast<std::size_t>(settings_.headings);
-    const std::uint32_t cell = cover_[number / headings];
+    const std::uint32_t cell = cover_->cells[number / headings];
     return {region_.grid.centreX(cell), region_.grid.centreY(cell),
             static_cast<double>(number % headings) * turn_};
   }
@@ -169,25 +142,30 @@ void FieldSearch::weigh(std::size_t count) {
   });
 }
 
-bool FieldSearch::work(double nominalMilliseconds) {
+bool FieldSearch::work(double nominalMilliseconds, const IsOver& isOver) {
   double nanoseconds = 1e6 * nominalMilliseconds;
   do {
     if (stage_ == Stage::kDone) return true;
-    std::size_t count = std::min(posesInStage() - next_, kBatch);
-    const double affordable = std::max(1.0, nanoseconds / present_.nanoseconds);
-    if (affordable < static_cast<double>(count)) count = static_cast<std::size_t>(affordable);
-    weigh(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Pose2 pose = poseAt(next_ + i);
-      const bool stands = stage_ != Stage::kClimb || isStandable(pose);
-      if (stands) keep({pose, batch_.logWeight[i], next_ + i});
-    }
-    nanoseconds -= static_cast<double>(count) * present_.nanoseconds;
-    worked_ += static_cast<double>(count) * present_.nanoseconds;
-    next_ += count;
-    if (next_ == posesInStage()) endStage();
-  } while (nanoseconds > 0.0);
+    if (next_ < posesInStage()) weighNext(nanoseconds, isOver);
+    if (next_ == posesInStage() && !endStage(isOver)) return false;
+  } while (nanoseconds > 0.0 && !isNow(isOver));
   return isDone();
+}
+
+/// Weighs the next poses of this stage. @param nanoseconds nominal time that is left
+void FieldSearch::weighNext(double& nanoseconds, const IsOver& isOver) {
+  std::size_t count = std::min(posesInStage() - next_, isOver ? kTimedPoses : kBatch);
+  const double affordable = std::max(1.0, nanoseconds / present_.nanoseconds);
+  if (affordable < static_cast<double>(count)) count = static_cast<std::size_t>(affordable);
+  weigh(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Pose2 pose = poseAt(next_ + i);
+    const bool stands = stage_ != Stage::kClimb || isStandable(pose);
+    if (stands) keep({pose, batch_.logWeight[i], next_ + i});
+  }
+  nanoseconds -= static_cast<double>(count) * present_.nanoseconds;
+  worked_ += static_cast<double>(count) * present_.nanoseconds;
+  next_ += count;
 }
 
 void FieldSearch::keep(const Candidate& weighed) {
@@ -213,41 +191,72 @@ void FieldSearch::prune() {
   isPruned_ = true;
 }
 
-void FieldSearch::endStage() {
-  next_ = 0;
-  if (stage_ == Stage::kClimb) {
-    climbOn();
-    return;
+/// Chooses those that the next stage treats. No nominal time is counted for it, so without a clock
+/// it is done at once.
+/// @returns whether the next stage has begun; false: the time is over
+bool FieldSearch::endStage(const IsOver& isOver) {
+  if (stage_ == Stage::kClimb && climbOn()) return true;
+  if (!choice_) {
+    beginChoice();
+    if (isNow(isOver)) return false;
   }
-  prune();
+  while (!chooseSome())
+    if (isNow(isOver)) return false;
+  next_ = 0;
   isPruned_ = false;
-  if (spacing_ > kFinest)
+  if (stage_ == Stage::kClimb)
+    finish();
+  else if (spacing_ > kFinest)
     divide();
   else
     beginClimb();
+  choice_.reset();
+  return true;
 }
 
-/// Returns the best of those kept, best first, but only a limited number from each place.
-std::vector<FieldSearch::Candidate> FieldSearch::survivors() {
-  std::sort(kept_.begin(), kept_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.isBetterThan(b); });
-  std::map<std::array<long, 3>, std::size_t> counts;
-  std::vector<Candidate> chosen;
-  for (const Candidate& one : kept_) {
-    if (chosen.size() == settings_.survivors) break;
-    const std::array<long, 3> place{std::lround(one.pose.x / kPlaceMetres),
-                                    std::lround(one.pose.y / kPlaceMetres),
-                                    std::lround(wrapAngle(one.pose.theta) / kPlaceRadians)};
-    if (counts[place]++ < kSurvivorsAPlace) chosen.push_back(one);
+void FieldSearch::beginChoice() {
+  countOfPlace_.clear();
+  if (stage_ == Stage::kClimb) {
+    choice_.emplace(std::move(kept_), settings_.places);
+    return;
   }
-  return chosen;
+  prune();
+  choice_.emplace(std::move(kept_),
+                  spacing_ > kFinest ? settings_.survivors : kCandidates * settings_.places);
+}
+
+/// Survivors may be near each other, but only a limited number is chosen from each place. Places,
+/// and what climbs to them, are those that have no better one within both distances.
+/// @returns whether the choice is made
+bool FieldSearch::chooseSome() {
+  if (stage_ != Stage::kClimb && spacing_ > kFinest)
+    return choice_->consider(
+        kConsidered, [this](const Candidate& one, const auto&) { return isWantedOfPlace(one); });
+  const double share = stage_ == Stage::kClimb ? 1.0 : 0.5;
+  const double metres = share * settings_.apartMetres;
+  const double radians = share * settings_.apartRadians;
+  return choice_->consider(kConsidered, [=](const Candidate& one, const auto& chosen) {
+    return std::none_of(chosen.begin(), chosen.end(), [&](const Candidate& better) {
+      const double x = one.pose.x - better.pose.x;
+      const double y = one.pose.y - better.pose.y;
+      return x * x + y * y < metres * metres &&
+             std::abs(wrapAngle(one.pose.theta - better.pose.theta)) < radians;
+    });
+  });
+}
+
+bool FieldSearch::isWantedOfPlace(const Candidate& one) {
+  const std::array<long, 3> place{std::lround(one.pose.x / kPlaceMetres),
+                                  std::lround(one.pose.y / kPlaceMetres),
+                                  std::lround(wrapAngle(one.pose.theta) / kPlaceRadians)};
+  return countOfPlace_[place]++ < kSurvivorsAPlace;
 }
 
 void FieldSearch::divide() {
   stage_ = Stage::kDivide;
   spacing_ *= 0.5;
   turn_ *= 0.5;
-  parents_ = survivors();
+  parents_ = choice_->take();
   kept_.clear();
   present_ = spacing_ > kFinest ? blurredBy({kBlur * spacing_, kBlur * turn_}) : sharp_;
 }
@@ -256,51 +265,28 @@ void FieldSearch::beginClimb() {
   stage_ = Stage::kClimb;
   present_ = sharp_;
   climbs_ = 0;
-  parents_ = apart(kCandidates * settings_.places, 0.5 * settings_.apartMetres,
-                   0.5 * settings_.apartRadians);
+  parents_ = choice_->take();
   spacing_ *= 0.5;
   turn_ *= 0.5;
   kept_.assign(parents_.size(), {{}, kNowhere, 0});
-  if (parents_.empty()) finish();
 }
 
-void FieldSearch::climbOn() {
+/// @returns whether there is another step
+bool FieldSearch::climbOn() {
+  if (parents_.empty() || climbs_ + 1 == kClimbs) return false;
   ++climbs_;
-  if (climbs_ == kClimbs) {
-    finish();
-    return;
-  }
+  next_ = 0;
   if (climbs_ % kClimbsAStep == 0) {
     spacing_ *= 0.5;
     turn_ *= 0.5;
   }
-  parents_ = kept_;
+  parents_ = std::move(kept_);
   kept_.assign(parents_.size(), {{}, kNowhere, 0});
-}
-
-/// Returns the best of those kept, best first, without those that have a better one within both
-/// distances.
-std::vector<FieldSearch::Candidate> FieldSearch::apart(std::size_t most, double metres,
-                                                       double radians) {
-  std::sort(kept_.begin(), kept_.end(),
-            [](const Candidate& a, const Candidate& b) { return a.isBetterThan(b); });
-  std::vector<Candidate> chosen;
-  for (const Candidate& one : kept_) {
-    if (chosen.size() == most) break;
-    const bool isSame = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& better) {
-      const double x = one.pose.x - better.pose.x;
-      const double y = one.pose.y - better.pose.y;
-      return x * x + y * y < metres * metres &&
-             std::abs(wrapAngle(one.pose.theta - better.pose.theta)) < radians;
-    });
-    if (!isSame) chosen.push_back(one);
-  }
-  return chosen;
+  return true;
 }
 
 void FieldSearch::finish() {
-  for (const Candidate& found :
-       apart(settings_.places, settings_.apartMetres, settings_.apartRadians))
+  for (const Candidate& found : choice_->take())
     places_.push_back({{found.pose.x, found.pose.y, wrapAngle(found.pose.theta)},
                        static_cast<double>(found.logProbability)});
   stage_ = Stage::kDone;
@@ -309,13 +295,13 @@ void FieldSearch::finish() {
 }
 
 double FieldSearch::nominalMilliseconds() const {
-  if (cover_.empty() || sharp_.nanoseconds == 0.0) return 0.0;
+  if (cover_->cells.empty() || sharp_.nanoseconds == 0.0) return 0.0;
   const auto all = [](std::size_t n, std::size_t times, double nanoseconds) {
     return static_cast<double>(n) * static_cast<double>(times) * nanoseconds;
   };
   double sum =
-      all(cover_.size(), static_cast<std::size_t>(settings_.headings), nanosecondsOfCover_);
-  for (double spacing = spacingOfCover_; spacing > kFinest; spacing *= 0.5)
+      all(cover_->cells.size(), static_cast<std::size_t>(settings_.headings), nanosecondsOfCover_);
+  for (double spacing = cover_->spacing; spacing > kFinest; spacing *= 0.5)
     sum += all(settings_.survivors, kParts, sharp_.nanoseconds);
   sum += all(kCandidates * settings_.places, kNeighbours * kClimbs, sharp_.nanoseconds);
   return 1e-6 * sum;

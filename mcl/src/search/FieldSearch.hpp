@@ -1,10 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "Choice.hpp"
+#include "FieldCover.hpp"
+#include "IsOver.hpp"
 #include "ortung/base/Export.hpp"
 #include "ortung/base/Pose2.hpp"
 #include "ortung/core/Weigher.hpp"
@@ -28,13 +34,16 @@ class Workers;
 class ORTUNG_API FieldSearch {
  public:
   struct Settings {
-    double spacing = 0.3;          ///< spacing of the coarse grid's positions [m]; rounded to cells
+    /// Spacing of the coarse grid's positions [m]; rounded to cells.
+    double spacing = FieldCover::kSpacing;
     int headings = 32;             ///< headings of the coarse grid per turn, at least 1
     std::size_t survivors = 2000;  ///< most poses that are divided, at least 1
     std::size_t places = 50;       ///< greatest number of places that are found, at least 1
     double apartMetres = 0.5;      ///< least distance between two places [m]
     double apartRadians = 0.35;    ///< least difference of headings [rad]: either makes two places
     Workers* workers = nullptr;    ///< borrowed; the result does not depend on them
+    /// The coarse grid's positions, if they are known already; then they say their spacing.
+    std::shared_ptr<const FieldCover> cover = {};
     /// Checks the settings. @throws std::invalid_argument for values that make no sense
     void check() const;
   };
@@ -52,7 +61,8 @@ class ORTUNG_API FieldSearch {
   void begin(std::vector<std::shared_ptr<const Weigher>> readings);
   /// Weighs poses until they have taken this long [ms] by the weighers' nominal times; at least one
   /// pose. No clock is read, so a replay does the same in each call. @returns isDone()
-  bool work(double nominalMilliseconds);
+  /// @param isOver ends the work earlier; asked after each few poses, and while some are chosen
+  bool work(double nominalMilliseconds, const IsOver& isOver = {});
   bool isDone() const { return stage_ == Stage::kDone; }
   /// Returns the greatest nominal time of a whole search by these readings [ms]; 0 before the first
   /// begin().
@@ -81,27 +91,27 @@ class ORTUNG_API FieldSearch {
     }
   };
 
-  void makeCover();
   Readings blurredBy(const PoseResolution& spread) const;
   std::size_t posesInStage() const;
   Pose2 poseAt(std::size_t number) const;
   bool isStandable(const Pose2& pose) const;
+  void weighNext(double& nanoseconds, const IsOver& isOver);
   void weigh(std::size_t count);
   void keep(const Candidate& weighed);
   std::size_t crowd() const;
   void prune();
-  std::vector<Candidate> survivors();
-  void endStage();
+  bool endStage(const IsOver& isOver);
+  void beginChoice();
+  bool chooseSome();
+  bool isWantedOfPlace(const Candidate& one);
   void divide();
   void beginClimb();
-  void climbOn();
-  std::vector<Candidate> apart(std::size_t most, double metres, double radians);
+  bool climbOn();
   void finish();
 
   const FieldRegion& region_;
   Settings settings_;
-  double spacingOfCover_ = 0.0;       ///< [m]
-  std::vector<std::uint32_t> cover_;  ///< cells of the coarse grid
+  std::shared_ptr<const FieldCover> cover_;
   Readings sharp_;
   Stage stage_ = Stage::kDone;
   Readings present_;                 ///< readings as the present stage weighs them
@@ -115,6 +125,9 @@ class ORTUNG_API FieldSearch {
   SampleSet batch_;                 ///< poses weighed last; `logWeight` is ln p
   std::vector<Candidate> kept_;     ///< the best of this stage so far, and some more; unordered
   bool isPruned_ = false;  ///< whether kept_ was pruned: then its last one is the worst to be kept
+  /// Choice of those that are treated further, once all poses of the stage are weighed.
+  std::optional<Choice<Candidate>> choice_;
+  std::map<std::array<long, 3>, std::size_t> countOfPlace_;  ///< survivors chosen of each place
   std::vector<Place> places_;
 };
 

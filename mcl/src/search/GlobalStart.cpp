@@ -21,12 +21,15 @@ void GlobalStart::prepare() {
   if (field_) return;
   FieldSearch::Settings settings;
   settings.workers = &workers_;
+  settings.cover = search_.cover();
   field_.emplace(region_, settings);
 }
 
 void GlobalStart::forget() {
   moment_.reset();
+  inside_.reset();
   around_.reset();
+  gathering_.reset();
   others_.reset();
   beside_ = 0;
   isFound_ = false;
@@ -43,31 +46,39 @@ void GlobalStart::begin(Moment moment) {
   field_->begin(std::move(readings));
 }
 
-bool GlobalStart::work(double nominalMilliseconds) {
+bool GlobalStart::work(double nominalMilliseconds, const IsOver& isOver) {
   double left = std::max(nominalMilliseconds, 1e-6);
   if (!isFound_) {
     const double before = field_->workedMilliseconds();
-    if (!field_->work(left)) return false;
+    const bool wasDone = field_->isDone();
+    if (!field_->work(left, isOver)) return false;
     left -= field_->workedMilliseconds() - before;
+    if (!wasDone && isNow(isOver)) return false;
     beginAround();
     isFound_ = true;
+    if (isNow(isOver)) return false;
   }
-  if (around_ && !drawOn(*around_, left)) return false;
+  if (inside_ && !gatherAround(isOver)) return false;
+  if (around_ && !around_->draw.isDone() && !drawOn(*around_, left, isOver)) return false;
   if (beside_ == 0) return true;
-  if (left <= 0.0) return false;
-  if (!others_) beginBeside();
-  return drawOn(*others_, left);
+  if (!others_) {
+    if (left <= 0.0) return false;
+    if (!gatherBeside(isOver)) return false;
+  }
+  return drawOn(*others_, left, isOver);
 }
 
 /// Continues a drawing.
 /// @param left nominal time that is left [ms]; the time used is subtracted
-/// @returns whether the drawing is done
-bool GlobalStart::drawOn(PoseSearch::Drawing& drawing, double& left) const {
+/// @returns whether the drawing is done, and there is time for more
+bool GlobalStart::drawOn(PoseSearch::Drawing& drawing, double& left, const IsOver& isOver) const {
+  const double most = isOver ? double{kTimedPoses} : 1e9;
   while (!drawing.draw.isDone()) {
     if (left <= 0.0) return false;
-    const double affordable = std::clamp(1e6 * left / nanoseconds_, 1.0, 1e9);
+    const double affordable = std::clamp(1e6 * left / nanoseconds_, 1.0, most);
     const std::size_t weighed = drawing.draw.work(static_cast<std::size_t>(affordable));
     left -= 1e-6 * static_cast<double>(weighed) * nanoseconds_;
+    if (isNow(isOver)) return false;
   }
   return true;
 }
@@ -109,18 +120,37 @@ void GlobalStart::beginAround() {
       rings_.empty()
           ? 0
           : std::min(most, tuning::start::kSamples + tuning::start::kSamplesAPlace * rings_.size());
-  const Random random = Random(config_.seed, moment_->stream).fork(0);
-  const PoseSearch::Weigh weigh = areAll ? cautiousWeigher() : weigher();
   if (n > 0)
-    around_.emplace(search_.drawingFrom(rings_, n, static_cast<double>(tuning::field::kCandidates),
-                                        weigh, random));
+    inside_.emplace(search_, rings_, n, static_cast<double>(tuning::field::kCandidates),
+                    Random(config_.seed, moment_->stream).fork(0));
   beside_ = areAll ? 0 : config_.maxSamples - n;
 }
 
-void GlobalStart::beginBeside() {
-  if (!around_) rings_.clear();
-  others_.emplace(search_.drawingBeside(rings_, beside_, candidatesFor(beside_), weigher(),
-                                        Random(config_.seed, moment_->stream).fork(1)));
+/// @returns whether all candidates around places are gathered, and there is time for more
+bool GlobalStart::gatherAround(const IsOver& isOver) {
+  while (!inside_->gather(kTimedPoses))
+    if (isNow(isOver)) return false;
+  around_.emplace(inside_->drawing(beside_ == 0 ? cautiousWeigher() : weigher()));
+  inside_.reset();
+  return !isNow(isOver);
+}
+
+/// @returns whether all candidates are gathered, and there is time for more
+bool GlobalStart::gatherBeside(const IsOver& isOver) {
+  if (!gathering_) {
+    if (!around_) rings_.clear();
+    gathering_.emplace(search_, rings_, beside_, candidatesFor(beside_),
+                       Random(config_.seed, moment_->stream).fork(1));
+  }
+  while (!gathering_->gather(kTimedPoses))
+    if (isNow(isOver)) return false;
+  others_.emplace(gathering_->drawing(weigher()));
+  gathering_.reset();
+  return !isNow(isOver);
+}
+
+std::size_t GlobalStart::size() const {
+  return (around_ ? around_->draw.size() : 0) + (others_ ? others_->draw.size() : 0);
 }
 
 /// Mixes both sets by their evidence.

@@ -48,16 +48,20 @@ class ORTUNG_API GlobalStart {
   /// Begins a new start. @param moment it has at least one reading
   void begin(Moment moment);
   /// Continues for this long [ms] by the weighers' nominal times. No clock is read.
+  /// @param isOver ends the work earlier; asked after each few poses
   /// @returns whether it is done @pre isBegun()
-  bool work(double nominalMilliseconds);
+  bool work(double nominalMilliseconds, const IsOver& isOver = {});
   const Moment& moment() const { return *moment_; }
+  /// Returns the number of samples. @pre work() has returned true
+  std::size_t size() const;
   /// Returns the weighted samples, and forgets the start. @pre work() has returned true
   SampleSet take();
 
  private:
   void beginAround();
-  void beginBeside();
-  bool drawOn(PoseSearch::Drawing& drawing, double& left) const;
+  bool gatherAround(const IsOver& isOver);
+  bool gatherBeside(const IsOver& isOver);
+  bool drawOn(PoseSearch::Drawing& drawing, double& left, const IsOver& isOver) const;
   PoseSearch::Weigh weigher() const;
   PoseSearch::Weigh cautiousWeigher() const;
   std::vector<PoseSearch::Ring> found() const;
@@ -73,9 +77,11 @@ class ORTUNG_API GlobalStart {
   double nanoseconds_ = 0.0;                   ///< time that drawing takes per pose [ns]
   bool isFound_ = false;                       ///< whether the search of the field is done
   std::vector<PoseSearch::Ring> rings_;        ///< neighbourhoods of the places that were found
+  std::optional<PoseSearch::Inside> inside_;   ///< gathers candidates for them
   std::optional<PoseSearch::Drawing> around_;  ///< drawing of the samples in these rings
   /// Number of samples of all other poses; 0: they do not matter.
   std::size_t beside_ = 0;
+  std::optional<PoseSearch::Beside> gathering_;
   std::optional<PoseSearch::Drawing> others_;  ///< drawing of the samples of all other poses
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -69,6 +70,14 @@ class ORTUNG_API Mcl {
   /// newest reading (eq. 8), and weighs them by every feature that is newer than the last update
   /// (eq. 7). Returns whether the belief was weighed, i.e. whether there is a new estimate.
   bool update(const SensorContainer& container);
+
+  /// Makes each update() end within MclConfig::budgetMs by a clock. Searches stop after a few poses
+  /// once their time is over, and go on in the next update; annealing ends early, rivals wait, and
+  /// if there is not even time to weigh all samples, an evenly spread part of them stays. As long
+  /// as the time suffices, the result is the same as without a clock. Without one, which is the
+  /// default, times are nominal, and a replay does the same.
+  /// @param milliseconds time that only goes forwards [ms]; null: no clock
+  void keepTime(std::function<double()> milliseconds);
 
   /// Returns whether a search of the field is going on, which is spread over updates: a global
   /// start, or a search for alternative places (MclConfig::budgetMs).

@@ -49,7 +49,8 @@ ORTUNG_API Weighers weighersOf(std::span<const SensorData* const> features);
 /// each cell. Without weighers all is 1.
 /// @param readings taken under the container's lock, which need not be held any more
 /// @param headings of the robot [rad]
-/// @param goOn called before each heading with the share done; false: stops with an empty map
+/// @param goOn called with the share done whenever a few cells were weighed at a heading, so often
+///   enough for a caller that has to give way; false: stops with an empty map
 ORTUNG_API std::vector<double> probabilityMap(const FieldRegion& region, const Weighers& readings,
                                               std::span<const double> headings,
                                               const std::function<bool(double)>& goOn = {});

@@ -68,6 +68,9 @@ struct LocalizationConfig {
   /// recorded and served. Status is also set when it or its reason changes between two estimates,
   /// at the time of the newest odometry, e.g. since readings stopped. Only with MCL.
   bool publish = false;
+  /// Makes each update end within `budget_ms` by the clock (Mcl::keepTime), for robots that run
+  /// now. Otherwise times are nominal, and the same readings give the same bits. Only of MCL.
+  bool keepsTime = false;
 };
 
 /// Adds the features that `publish` adds to another container, e.g. one that is served.
