@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# install-deps.sh [demo|test|all|clusters]  installs what Ortung needs on Debian 12. Does nothing, and needs no rights, if all of it is
+# install-deps.sh [demo|test|all|clusters|arm64]  installs what Ortung needs on Debian 12. Does nothing, and needs no rights, if all of it is
 # there.
 #   demo  what scripts/demo.sh builds and runs
 #   test  that, and all else that is built and tested (the default)
 #   all   that, and what CI and developers use besides
 #   clusters  only what the tests of sweeps on many machines start: Slurm, GNU parallel, Dask
+#   arm64  only what scripts/check-arm.sh needs: a cross compiler, libraries for 64-bit ARM beside those of this machine, QEMU
 set -euo pipefail
 
 demo=(
@@ -48,6 +49,8 @@ test=(
   libdlib-dev libblas-dev
   # tests
   libgtest-dev librapidcheck-dev python3 python3-numpy
+  # counts of the instructions of hot calls
+  valgrind
   # pictures of the Python package
   python3-matplotlib
   # the viewer's page in a real browser; Node.js, which builds it, is not Debian 12's (20.19 or later)
@@ -64,13 +67,18 @@ all=(
 clusters=(
   slurmctld slurmd slurm-client munge parallel python3-distributed procps
 )
+arm64=(
+  g++-aarch64-linux-gnu qemu-user cmake ninja-build libeigen3-dev nlohmann-json3-dev
+  libtomlplusplus-dev:arm64 libzstd-dev:arm64 libgtest-dev:arm64 librapidcheck-dev:arm64
+)
 
 case ${1:-test} in
   demo) packages=("${demo[@]}") ;;
   test) packages=("${demo[@]}" "${test[@]}") ;;
   all) packages=("${demo[@]}" "${test[@]}" "${all[@]}") ;;
   clusters) packages=("${clusters[@]}") ;;
-  *) echo "usage: $0 [demo|test|all|clusters]" >&2; exit 2 ;;
+  arm64) packages=("${arm64[@]}") ;;
+  *) echo "usage: $0 [demo|test|all|clusters|arm64]" >&2; exit 2 ;;
 esac
 
 missing=()
@@ -89,6 +97,9 @@ if [[ $(id -u) != 0 ]]; then
   as_root=(sudo)
 fi
 echo "install-deps: installing ${missing[*]}"
+if [[ ${1:-test} == arm64 ]]; then
+  "${as_root[@]}" dpkg --add-architecture arm64
+fi
 "${as_root[@]}" apt-get update -q
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
   apt-get install -y -q --no-install-recommends "${missing[@]}"

@@ -22,7 +22,7 @@ LIBRARIES = (
     ("board/client", "ortung::client", "Clients", "A container that a server keeps up to date; C interface."),
     ("realsensors/core", "ortung::devices, drivers", "Drivers of devices", "What a driver of a robot's device implements."),
     ("play/learning", "ortung::learning", "Environments to learn in", "Batches of episodes."),
-    ("play/benchmark", "ortung::benchmark", "Benchmark", "Goalkeepers against strikers."),
+    ("play/benchmark", "ortung::benchmark", "Benchmark", "Goalkeepers against strikers, teams against teams."),
 )
 
 DOXYFILE = """

@@ -160,7 +160,8 @@ std::vector<float> scanAt(const Pose2& pose, int beams) {
   return ranges;
 }
 
-std::unique_ptr<ScanData> learnedScan(ScanData::Perception perception, double headingStepDegrees) {
+std::unique_ptr<ScanData> learnedScan(ScanData::Perception perception, double headingStepDegrees,
+                                      const FieldRegion& region) {
   ScanData::Config config;
   config.beams = kBeams;
   config.firstAngle = -std::numbers::pi / 2;
@@ -169,7 +170,6 @@ std::unique_ptr<ScanData> learnedScan(ScanData::Perception perception, double he
   config.perception = perception;
   config.endPointCell = kCell;
   auto scan = std::make_unique<ScanData>(SensorId{"Bench", "LRF", "Scan"}, Pose2{}, config);
-  const FieldRegion& region = fieldRegion();
   std::vector<std::uint32_t> words;
   scan->beginLearning(region, headingStepDegrees * kRadiansADegree);
   const int views = static_cast<int>(std::lround(2 * std::numbers::pi / scan->headingSpacing()));

@@ -36,8 +36,9 @@ SampleSet cloud(bool spread, std::size_t n);
 /// Ranges that a scanner at the robot's origin reads, without noise; infinity: nothing in range.
 std::vector<float> scanAt(const Pose2& pose, int beams = kBeams);
 
-/// A scanner that has learned the field and reads it from kRobot.
-std::unique_ptr<ScanData> learnedScan(ScanData::Perception perception, double headingStepDegrees);
+/// A scanner that has learned the field, or a part of it, and reads it from kRobot.
+std::unique_ptr<ScanData> learnedScan(ScanData::Perception perception, double headingStepDegrees,
+                                      const FieldRegion& region = fieldRegion());
 
 /// Nanoseconds that this thread has computed since construction; other programs do not count.
 class Stopwatch {

@@ -106,6 +106,7 @@ BENCHMARK_CAPTURE(picture, perspectiveVaried, "msl_front_camera.toml", 1.0)
 BENCHMARK_CAPTURE(picture, omnidirectionalVaried, "msl_camera.toml", 1.0)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(annotations, perspective, "msl_front_camera.toml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(annotations, omnidirectional, "msl_camera.toml")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace ortung

@@ -10,6 +10,9 @@
 #include "ortung/formats/BearingData.hpp"
 #include "ortung/formats/LandmarksData.hpp"
 #include "ortung/formats/ScalarData.hpp"
+#ifdef ORTUNG_BENCH_MRPT
+#include "MrptBeacons.hpp"
+#endif
 
 namespace ortung::bench {
 namespace {
@@ -148,6 +151,17 @@ void measure(benchmark::State& state, bool isNaive, Weigh weigh) {
 
 void direct(benchmark::State& state) { measure(state, true, weighDirectly); }
 BENCHMARK(direct)->DenseRange(0, 1);
+
+#ifdef ORTUNG_BENCH_MRPT
+void mrptSixRanges(benchmark::State& state) {
+  std::vector<std::pair<double, double>> places;
+  for (const Post& post : kPosts) places.emplace_back(post.x, post.y);
+  const MrptBeacons beacons(places, kRangeNoise);
+  measure(state, false,
+          [&](const SampleView& s, std::span<float> out) { beacons.getProbability(s, out); });
+}
+BENCHMARK(mrptSixRanges)->DenseRange(0, 1);
+#endif
 
 void separateFeatures(benchmark::State& state) {
   SensorContainer container;

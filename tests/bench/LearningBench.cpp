@@ -55,7 +55,8 @@ const Options kShot = {{"striker", {std::string("shot")}}};
 BENCHMARK_CAPTURE(naive, goalkeeper, "goalkeeper-v0", {});
 BENCHMARK_CAPTURE(naive, goalkeeper_shot, "goalkeeper-v0", kShot);
 BENCHMARK_CAPTURE(steps, goalkeeper, "goalkeeper-v0", {})
-    ->ArgsProduct({{1, 64, 256}, {1}})
+    ->ArgsProduct({{1, 8, 64, 256, 1024}, {1}});  // by computing time, as all with one thread
+BENCHMARK_CAPTURE(steps, goalkeeper_threads, "goalkeeper-v0", {})
     ->ArgsProduct({{64, 256}, {2}})
     ->UseRealTime();
 BENCHMARK_CAPTURE(steps, goalkeeper_shot, "goalkeeper-v0", kShot)->Args({64, 1});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kNumbers = 1 << 14;
 constexpr Pose2 kChange{0.05, 0.002, 0.03};  // of a step
-constexpr const char* kSetNames[] = {"portable", "avx2", "avx512"};
+constexpr const char* kSetNames[] = {"portable", "avx2", "avx512", "neon"};
 
 /// Runs @p work for each n things with the instruction set that the benchmark's argument names.
 template <class Work>
@@ -57,7 +57,7 @@ void fillGaussianNumbers(benchmark::State& state) {
     benchmark::ClobberMemory();
   });
 }
-BENCHMARK(fillGaussianNumbers)->DenseRange(0, 2);
+BENCHMARK(fillGaussianNumbers)->DenseRange(0, 3);
 
 void uniformDistribution(benchmark::State& state) {
   std::mt19937 generator(1);
@@ -79,7 +79,7 @@ void fillUniformNumbers(benchmark::State& state) {
     benchmark::ClobberMemory();
   });
 }
-BENCHMARK(fillUniformNumbers)->DenseRange(0, 2);
+BENCHMARK(fillUniformNumbers)->DenseRange(0, 3);
 
 /// The same motion model as anybody would write it with the standard library.
 void moveNaively(benchmark::State& state) {
@@ -113,7 +113,7 @@ void moveByOdometry(benchmark::State& state) {
     benchmark::ClobberMemory();
   });
 }
-BENCHMARK(moveByOdometry)->DenseRange(0, 2);
+BENCHMARK(moveByOdometry)->DenseRange(0, 3);
 
 }  // namespace
 }  // namespace ortung::bench

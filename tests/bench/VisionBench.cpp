@@ -6,9 +6,10 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "ortung/base/Parameters.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/calibration/ImageFile.hpp"
-#include "ortung/vision/BlobFinder.hpp"
+#include "ortung/vision/BallFinder.hpp"
 #include "ortung/vision/LineFinder.hpp"
 
 namespace {
@@ -35,12 +36,14 @@ void lines(benchmark::State& state) {
   const Picture picture = floorWithLines(640, 480);
   const ImageView view = picture.view();
   const ColourTable colours(findColours({&view, 1}));
-  LineFinder finder({.spacing = static_cast<int>(state.range(0))});
+  LineFinder finder(
+      {.spacing = static_cast<int>(state.range(0)), .findsFaint = state.range(1) != 0});
   std::size_t points = 0;
   for (auto _ : state) points = finder.find(view, colours).size();
   state.counters["points"] = static_cast<double>(points);
 }
-BENCHMARK(lines)->Arg(6)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(lines)->Args({6, 0})->Args({6, 1})->Args({1, 0})->Args({1, 1})->Unit(
+    benchmark::kMillisecond);
 
 void edgesAndStraightLinesOfOpenCv(benchmark::State& state) {
   const Picture picture = floorWithLines(640, 480);
@@ -70,7 +73,11 @@ void balls(benchmark::State& state) {
   const Picture picture = floorWithLines(640, 480);
   const ImageView view = picture.view();
   const ColourTable colours(findColours({&view, 1}));
-  for (auto _ : state) benchmark::DoNotOptimize(findBlobs(view, colours, ColourClass::kBall, 12.0));
+  Parameters camera("camera");
+  camera.set("size_px", std::vector<double>{640, 480});
+  camera.set("focal_px", std::vector<double>{400, 400});
+  BallFinder finder({readCamera(camera), {.z = 0.8, .tilt = 0.35}}, {});
+  for (auto _ : state) benchmark::DoNotOptimize(finder.find(view, colours));
 }
 BENCHMARK(balls)->Unit(benchmark::kMillisecond);
 

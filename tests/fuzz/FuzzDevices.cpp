@@ -30,6 +30,7 @@ namespace ortung {
 DeviceAbsent::~DeviceAbsent() = default;
 DeviceMisfit::~DeviceMisfit() = default;
 DeviceDriver::~DeviceDriver() = default;
+void DeviceDriver::refresh() {}
 bool isLineSpeed(int) { return true; }
 
 Port::Port(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
@@ -53,6 +54,7 @@ bool Port::read(std::string& bytes, std::chrono::milliseconds, std::size_t most)
   rest.remove_prefix(next.size());
   return true;
 }
+void Port::drop() { rest = {}; }
 void Port::write(std::string_view bytes) {
   const auto question = base_lines::decode(bytes.substr(0, bytes.find('\r')));
   if (question && std::holds_alternative<base_lines::Question>(*question))
@@ -66,7 +68,7 @@ namespace {
 using namespace ortung;
 
 constexpr Timestamp kSecond = 1'000'000;
-constexpr Timestamp kOldest = 11 * kSecond;  // age of a stamp
+constexpr Timestamp kOldest = 6 * kSecond / 10;  // age of a stamp
 const SensorId kWheels{"odometry", "odometry", "pose"};
 
 /// A device as its thread reads it.
@@ -137,10 +139,12 @@ class Device {
 };
 
 /// A telegram as a sound device sends it, whatever was sent before.
-std::string soundTelegram(bool isBase, const OdometryData::Reading& reading) {
-  if (isBase) return base_lines::encode(base_lines::Odometry{.time = 7, .pose = reading.pose});
+std::string soundTelegram(bool isBase, std::uint32_t milliseconds,
+                          const OdometryData::Reading& reading) {
+  if (isBase)
+    return base_lines::encode(base_lines::Odometry{.time = milliseconds, .pose = reading.pose});
   std::string line;
-  writeLine({7, kWheels, OdometryData::encode(reading)}, line);
+  writeLine({Timestamp{1000} * milliseconds, kWheels, OdometryData::encode(reading)}, line);
   return line + "\n";
 }
 
@@ -158,15 +162,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     device.now += wait;
     device.look();
   }
-  // Whatever it has sent: once it comes back, what it measures is taken.
+  // Whatever it has sent: once it comes back, what it measures is taken, after half a minute if its
+  // clock seems to be late.
   device.now += 2 * kSecond;
   OdometryData::Reading reading;
   reading.pose = {1.5, -0.25, 0.0};
-  const std::string sound = "\xFF" + soundTelegram(isBase, reading);
-  rest = sound;
-  piece = sound.size();
+  rest = "\xFF";
   device.look();
-  fuzz::require(device.look() == 1);
+  std::size_t taken = 0;
+  for (std::uint32_t i = 0; i < 140; ++i) {
+    const std::string sound = soundTelegram(isBase, 7 + 250 * i, reading);
+    rest = sound;
+    piece = sound.size();
+    taken = device.look();
+    device.now += kSecond / 4;
+  }
+  fuzz::require(taken == 1);
   fuzz::require(device.newest() == OdometryData::encode(reading));
   return 0;
 }

@@ -20,7 +20,7 @@ FIXED = {
     "map/MapChanges.cpp": {"kRounding"},
     "map/MapWatch.cpp": {"kFarthest"},
     "readings/NewReadings.cpp": {"kMostNats"},
-    "refine/Polish.cpp": {"kSettledMetres", "kSettledRadians"},
+    "refine/Polish.cpp": {"kSettledMetres", "kSettledRadians", "kSettledShare"},
     "refine/Steps.cpp": {"kMetres", "kRadians"},  # what is promised
     "rivals/Delays.cpp": {"kSmallest"},
     "search/FieldSearch.cpp": {"kMostNats", "kNowhere"},

@@ -2,7 +2,7 @@
 # deps.sh ROOT  scripts/install-deps.sh installs whatever CMake files and scripts look for.
 cd "$1" || exit 2
 status=0
-packages=$(sed -n '/^[a-z]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
+packages=$(sed -n '/^[a-z0-9]*=($/,/^)/p' scripts/install-deps.sh | grep -v '^ *#')
 
 # The Debian package of what a CMake file or a script calls NAME; - for what is there already.
 package_of() {
@@ -14,7 +14,8 @@ package_of() {
     spdlog) echo libspdlog-dev ;; tomlplusplus) echo libtomlplusplus-dev ;; yaml-cpp) echo libyaml-cpp-dev ;; zstd) echo libzstd-dev ;; zstdcat) echo zstd ;;
     iostreams) echo libboost-iostreams-dev ;; dlib/*) echo libdlib-dev ;; stb/*) echo libstb-dev ;; GL/osmesa.h) echo libosmesa6-dev ;; EGL/egl.h) echo libegl-dev ;; lz4frame.h) echo liblz4-dev ;; xxhash.h) echo libxxhash-dev ;; ccache) echo ccache ;;
     clang-19 | clang-format-19 | python3 | cmake | pkg-config) echo "$1" ;; clang++-19) echo clang-19 ;;
-    Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;;
+    valgrind/callgrind.h) echo valgrind ;; Ninja | ninja) echo ninja-build ;; readelf) echo binutils ;;
+    aarch64-linux-gnu-g++) echo g++-aarch64-linux-gnu ;; qemu-aarch64) echo qemu-user ;;
     PIL) echo python3-pil ;; numpy) echo python3-numpy ;; dpkg-architecture | dpkg-shlibdeps) echo dpkg-dev ;; debootstrap | lintian) echo "$1" ;;
     Threads | ortung | dpkg-deb) echo - ;; *) echo "?" ;;
   esac
@@ -28,6 +29,7 @@ names=$({
     $cmake_files
   # shellcheck disable=SC2086
   sed -nE 's/^ *find_package\(OrtungOpenCV .*COMPONENTS ([a-z0-9 ]+)\).*/\1/p' $cmake_files | tr ' ' '\n' | sed 's/^/opencv_/'
+  sed -nE 's/^set\(CMAKE_(CXX_COMPILER|CROSSCOMPILING_EMULATOR) ([a-z0-9+-]+)\)/\2/p' cmake/*.cmake
   sed -nE 's/.*"CXX?": "([^"]+)".*/\1/p; s/.*"generator": "([^"]+)".*/\1/p' CMakePresets.json
   grep -ohE 'clang-format-[0-9]+|\b(ninja|ccache|python3|cmake|pkg-config|readelf|zstdcat|debootstrap|lintian|dpkg-architecture)\b' scripts/*.sh tests/hygiene/*.sh
   grep -ohE '^ *(import|from) (PIL|numpy)' scripts/*.py examples/*.py tests/*/*.py 2> /dev/null | sed 's/.* //'
@@ -39,6 +41,6 @@ for name in $names; do
     -) continue ;;
     "?") echo "$name is looked for; tests/hygiene/deps.sh does not know its package" ; status=1 ; continue ;;
   esac
-  echo "$packages" | grep -qE "(^| )$package( |$)" || { echo "scripts/install-deps.sh lacks $package, for $name"; status=1; }
+  echo "$packages" | tr ' ' '\n' | grep -qxF -e "$package" || { echo "scripts/install-deps.sh lacks $package, for $name"; status=1; }
 done
 exit $status

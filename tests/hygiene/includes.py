@@ -50,7 +50,7 @@ FOREIGN = {
     r"iostream$|csignal$": r"^(?!mcl/run/)",
     r"unistd\.h": r"^(?!mcl/run/)",
     # C, POSIX and processors.
-    r"(arpa|net|netinet|sys)/|(dlfcn|elf|fcntl|immintrin|link|netdb|poll|sched|spawn|stddef|stdint|stdlib|termios|time)\.h": "",
+    r"(arpa|net|netinet|sys)/|(arm_neon|dlfcn|elf|fcntl|immintrin|link|netdb|poll|sched|spawn|stddef|stdint|stdlib|termios|time)\.h": "",
 }
 
 

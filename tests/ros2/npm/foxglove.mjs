@@ -10,34 +10,52 @@ import { folder, ortung, parseSchema, program, source } from "./common.mjs";
 
 const { FoxgloveClient } = protocols;
 
-/** A server on a port of its own. */
+const limit = { timeout: 60_000 }; // so that a test that waits in vain is named
+const sockets = new Set();
+
+/** A connection to a server, closed before the server ends. */
+function connect(url, protocol) {
+  const socket = new WebSocket(url, [protocol]);
+  sockets.add(socket);
+  return socket;
+}
+
+/** A server on a port of its own. Its output is read to the end: a server whose reader went away would end, too. */
 async function serve(t, ...words) {
   const server = spawn(program, words, { stdio: ["ignore", "pipe", "pipe"] });
+  const ended = once(server, "close");
   t.after(async () => {
+    for (const socket of sockets) socket.terminate();
+    sockets.clear();
     server.kill("SIGTERM");
-    if (server.exitCode === null) await once(server, "exit");
+    await ended;
   });
   let text = "";
-  server.stderr.resume();
-  for await (const piece of server.stdout) {
-    text += piece;
-    const port = /port (\d+)/.exec(text);
-    const token = /#token=(\w+)/.exec(text);
-    if (port && (token || !(words.includes("--view") || words[0] === "view"))) return { port: port[1], token: token?.[1] };
-  }
-  throw new Error(`the server ended: ${text}`);
+  server.stderr.on("data", (piece) => (text += piece));
+  const hasPage = words.includes("--view") || words[0] === "view";
+  return new Promise((resolve, reject) => {
+    server.on("error", reject);
+    server.on("close", (code, signal) => reject(new Error(`the server ended with ${code ?? signal}: ${text}`)));
+    server.stdout.on("data", (piece) => {
+      text += piece;
+      const port = /port (\d+)\n/.exec(text);
+      const token = /#token=(\w+)\n/.exec(text);
+      if (port && (token || !hasPage)) resolve({ port: port[1], token: token?.[1] });
+    });
+  });
 }
 
 /** Subscribes to topics until each has told `count` messages. */
 function hear(url, protocol, wanted, count) {
   return new Promise((resolve, reject) => {
-    const socket = new WebSocket(url, [protocol]);
+    const socket = connect(url, protocol);
     const client = new FoxgloveClient({ ws: socket });
     const heard = new Map(wanted.map((topic) => [topic, []]));
     const subscriptions = new Map();
     const told = { info: null, channels: [], statuses: [], times: 0, heard, socket };
     client.on("error", reject);
     socket.on("error", reject);
+    socket.on("close", (code) => reject(new Error(`the server left with ${code}`)));
     client.on("serverInfo", (info) => (told.info = info));
     client.on("status", (status) => told.statuses.push(status));
     client.on("time", () => told.times++);
@@ -52,7 +70,7 @@ function hear(url, protocol, wanted, count) {
       heard.get(topic).push({ time: timestamp, value: reader.readMessage(data) });
       if (![...heard].every(([name, list]) => list.length >= (name === "/tf_static" || name === "/map" ? 1 : count))) return;
       client.off("message", take);
-      socket.once("close", () => resolve(told));
+      resolve(told);
       client.close();
     };
     client.on("message", take);
@@ -60,7 +78,7 @@ function hear(url, protocol, wanted, count) {
 }
 
 for (const protocol of ["foxglove.websocket.v1", "foxglove.sdk.v1"]) {
-  test(`${protocol}: a simulated robot is told in messages that its client can read`, async (t) => {
+  test(`${protocol}: a simulated robot is told in messages that its client can read`, limit, async (t) => {
     const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0", "--speed", "20");
     const topics = ["/tf", "/tf_static", "/pioneer_lrf/scan", "/pioneer_lrf/odom"];
     const { info, channels, heard, statuses, times } = await hear(`ws://127.0.0.1:${port}/`, protocol, topics, 20);
@@ -79,7 +97,7 @@ for (const protocol of ["foxglove.websocket.v1", "foxglove.sdk.v1"]) {
   });
 }
 
-test("a server without a page speaks it, too", async (t) => {
+test("a server without a page speaks it, too", limit, async (t) => {
   const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--listen", "0", "--speed", "20");
   const { info, heard } = await hear(`ws://127.0.0.1:${port}/`, "foxglove.sdk.v1", ["/pioneer_lrf/scan"], 3);
   assert.ok(info.capabilities.includes("clientPublish") && info.supportedEncodings.includes("json"));
@@ -88,14 +106,13 @@ test("a server without a page speaks it, too", async (t) => {
   assert.match(await page.text(), /shows no page/);
 });
 
-test("who has the token places and drives a robot, who has not is told so", async (t) => {
+test("who has the token places and drives a robot, who has not is told so", limit, async (t) => {
   const { port, token } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0", "--no-browser");
   const until = async (isDone) => {
     while (!isDone()) await new Promise((done) => setTimeout(done, 20)); // the test's own time limit ends it
   };
   const meet = async (url) => {
-    const socket = new WebSocket(url, ["foxglove.sdk.v1"]);
-    t.after(() => socket.close());
+    const socket = connect(url, "foxglove.sdk.v1");
     const client = new FoxgloveClient({ ws: socket });
     const told = { client, statuses: [], channels: new Map(), odometry: [] };
     client.on("status", (status) => told.statuses.push(status));
@@ -128,9 +145,9 @@ test("who has the token places and drives a robot, who has not is told so", asyn
   assert.deepEqual(operator.statuses, []);
 });
 
-test("nonsense is answered and does not end the conversation", async (t) => {
+test("nonsense is answered and does not end the conversation", limit, async (t) => {
   const { port } = await serve(t, "sim", `${source}/maps/fields/f2000.toml`, "--robot", `${source}/maps/robots/pioneer_lrf.toml`, "--view", "--listen", "0");
-  const socket = new WebSocket(`ws://127.0.0.1:${port}/`, ["foxglove.sdk.v1"]);
+  const socket = connect(`ws://127.0.0.1:${port}/`, "foxglove.sdk.v1");
   const answers = [];
   const enough = new Promise((resolve, reject) => {
     socket.on("error", reject);
@@ -154,27 +171,31 @@ test("nonsense is answered and does not end the conversation", async (t) => {
   await once(socket, "close");
 });
 
-test("a record is played, paused and sought in by whoever has the token", async (t) => {
+test("a client with the token plays, pauses and seeks in a record", limit, async (t) => {
   const at = folder(t);
   const robot = `${source}/maps/robots/pioneer_lrf.toml`;
   ortung("sim", `${source}/maps/fields/f2000.toml`, "--robot", robot, "--duration", "20", "--free-run", "--record", at("run.rec"));
   ortung("learn", "--world", `${source}/maps/fields/f2000.toml`, "--robot", robot, "--out", at("t.ortung"));
   const { port, token } = await serve(t, "view", at("run.rec"), "--robot", robot, "--tables", at("t.ortung"), "--listen", "0", "--no-browser");
-  const socket = new WebSocket(`ws://127.0.0.1:${port}/?token=${token}`, ["foxglove.sdk.v1"]);
-  t.after(() => socket.close());
-  const waiting = [];
+  const socket = connect(`ws://127.0.0.1:${port}/?token=${token}`, "foxglove.sdk.v1");
+  // Several answers may come at once, so all are kept until somebody asks for one.
+  const answers = [];
+  const nextAnswer = async (isWanted) => {
+    while (!answers.some(isWanted)) await once(socket, "message");
+    return answers.splice(answers.findIndex(isWanted), 1)[0];
+  };
   const channels = new Map();
   let info = null;
   const scans = [];
   socket.on("message", (data, isBinary) => {
     if (isBinary && data[0] === 5) {
-      waiting.shift()?.({ status: data[1], time: Number(data.readBigUInt64LE(2)) / 1e9, speed: data.readFloatLE(10), sought: data[14], id: data.subarray(19).toString() });
+      answers.push({ status: data[1], time: Number(data.readBigUInt64LE(2)) / 1e9, speed: data.readFloatLE(10), sought: data[14], id: data.subarray(19).toString() });
     } else if (isBinary && data[0] === 1) {
       scans.push(Number(data.readBigUInt64LE(5)) / 1e9);
     } else if (!isBinary) {
       const message = JSON.parse(data.toString());
       if (message.op === "serverInfo") info = message;
-      if (message.op === "status") waiting.shift()?.(message);
+      if (message.op === "status") answers.push(message);
       for (const channel of message.channels ?? []) {
         channels.set(channel.topic, channel);
         if (channel.topic === "/scan") socket.send(JSON.stringify({ op: "subscribe", subscriptions: [{ id: 1, channelId: channel.id }] }));
@@ -195,9 +216,8 @@ test("a record is played, paused and sought in by whoever has the token", async 
     request.writeBigUInt64LE(BigInt(Math.round((seek ?? 0) * 1e9)), 7);
     request.writeUInt32LE(id.length, 15);
     request.write(id, 19);
-    const answer = new Promise((resolve) => waiting.push(resolve));
     socket.send(request);
-    return answer;
+    return nextAnswer((answer) => answer.op === "status" || answer.id === id);
   };
   const paused = await control(false, 1, 5, "a");
   assert.deepEqual([paused.status, paused.sought, paused.id], [1, 1, "a"], JSON.stringify(paused));
@@ -205,7 +225,6 @@ test("a record is played, paused and sought in by whoever has the token", async 
   scans.length = 0;
   const playing = await control(true, 50, 15, "b");
   assert.deepEqual([playing.status, playing.speed, playing.id], [0, 50, "b"], JSON.stringify(playing));
-  const ended = await new Promise((resolve) => waiting.push(resolve));
-  assert.equal(ended.status, 3, JSON.stringify(ended));
+  await nextAnswer((answer) => answer.id === "" && answer.status === 3);
   assert.ok(scans.some((time) => time > 15) && scans.every((time) => time < 20.1), scans.join());
 });
