@@ -2,14 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "FakeRoom.hpp"
 #include "SurfaceFit.hpp"
+#include "SurfaceRay.hpp"
 #include "ortung/base/InstructionSet.hpp"
 
 namespace ortung {
@@ -99,25 +100,19 @@ TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
   }
 }
 
-/// What the ends of beams from @p robot say of the wall, by the formulas in double precision.
-Slope naiveSlopeOf(const std::vector<std::pair<double, double>>& beams, const Pose2& robot,
-                   const SensorModel& model) {
-  struct Residual {
-    double off, sigma, lever;
-  };
-  std::vector<Residual> residuals;
-  for (const auto& [range, bearing] : beams) {
-    const double dx = range * std::cos(robot.theta + bearing);
-    const double dy = range * std::sin(robot.theta + bearing);
-    const double slant = std::max(0.15, std::abs(dx) / range);
-    const double across = std::hypot(0.0005, kSigma);
-    residuals.push_back(
-        {1.0 - robot.x - dx, std::hypot(model.sigmaAt(range) * slant, across), -dy});
-  }
+struct Residual {
+  double off;  ///< [m]
+  double sigma;
+  Pose2 by;      ///< derivatives of the expectation
+  bool follows;  ///< that of the beam before
+};
+
+/// What residuals say of the pose, by the formulas in double precision.
+Slope naiveSlopeOf(const std::vector<Residual>& residuals, double outliers) {
   const auto share = [&](const Residual& r, double variance) {
     const double sigmas = r.off / r.sigma / std::sqrt(variance);
-    const double inlier = (1.0 - model.outliers) * std::exp(-0.5 * sigmas * sigmas);
-    return inlier / (inlier + model.outliers);
+    const double inlier = (1.0 - outliers) * std::exp(-0.5 * sigmas * sigmas);
+    return inlier / (inlier + outliers);
   };
   double variance = 1.0;
   for (int k = 0; k < 4; ++k) {
@@ -134,8 +129,9 @@ Slope naiveSlopeOf(const std::vector<std::pair<double, double>>& beams, const Po
   double pairs = 1e-9;
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const Residual& r = residuals[k];
-    slope.add(r.off, {1.0, 0.0, r.lever}, share(r, variance) / (r.sigma * r.sigma * variance));
-    if (k == 0) continue;
+    slope.add(r.off, {r.by.x, r.by.y, r.by.theta},
+              share(r, variance) / (r.sigma * r.sigma * variance));
+    if (!r.follows) continue;
     const Residual& before = residuals[k - 1];
     const double both = std::min(share(r, variance), share(before, variance));
     const double a = r.off / r.sigma;
@@ -149,37 +145,154 @@ Slope naiveSlopeOf(const std::vector<std::pair<double, double>>& beams, const Po
   return worth;
 }
 
-TEST(SurfaceFit, WeighsResidualsByTheFormulasWithAnyInstructionSet) {
-  const SensorModel model{.sigma = 0.03, .sigmaPerMetre = 0.01, .outliers = 0.1};
-  const auto field = wall();
-  SurfaceFit fit(field, Pose2{}, model);
-  std::vector<std::pair<double, double>> beams;
-  std::mt19937 random(7);
-  std::normal_distribution<double> noise(0.0, 0.03);
-  for (int k = -50; k <= 50; ++k) {
-    const double bearing = 0.02 * k;
-    const double outlier = k % 10 == 3 ? 0.15 : 0.0;
-    beams.emplace_back(1.0 / std::cos(bearing) + noise(random) + outlier, bearing);
-    fit.add(beams.back().first, bearing);
+struct SeenBeam {
+  double range;
+  double bearing;
+};
+
+/// The surface that a beam from @p at shows: walked back from its end, the first one that it
+/// crosses, else that at its end.
+const Surface* naivelyShown(const SurfaceField& field, const Pose2& at, double range) {
+  const double cell = field.grid().cell;
+  const double c = std::cos(at.theta);
+  const double s = std::sin(at.theta);
+  const Surface* shown = field.near(at.x + range * c, at.y + range * s);
+  if (shown == nullptr) return nullptr;
+  for (const double back : {2 * cell, 4 * cell, 6 * cell}) {
+    if (range <= back) break;
+    const Surface* other = field.near(at.x + (range - back) * c, at.y + (range - back) * s);
+    if (other == nullptr) break;
+    const double nx = static_cast<double>(other->normalX);
+    const double ny = static_cast<double>(other->normalY);
+    const double slant = nx * c + ny * s;
+    if (other->along >= 0.0F || std::abs(slant) < 0.2) continue;
+    const double dx = static_cast<double>(other->x) - at.x;
+    const double dy = static_cast<double>(other->y) - at.y;
+    const double crossed = (nx * dx + ny * dy) / slant;
+    if (crossed < range && std::hypot(crossed * c - dx, crossed * s - dy) < cell) shown = other;
   }
-  const Pose2 robot{-0.02, 0.01, 0.01};
-  const Slope naive = naiveSlopeOf(beams, robot, model);
+  return shown;
+}
+
+/// The residuals of beams from @p robot, on which the sensor is mounted, one beam after another.
+std::vector<Residual> naiveResiduals(const SurfaceField& field, const std::vector<SeenBeam>& beams,
+                                     const Pose2& mount, const SensorModel& model,
+                                     const Pose2& robot) {
+  std::vector<Residual> residuals;
+  const Pose2 sensor = robot * mount;
+  bool follows = false;
+  for (const auto& [range, bearing] : beams) {
+    const double angle = sensor.theta + bearing;
+    const Surface* surface = naivelyShown(field, {sensor.x, sensor.y, angle}, range);
+    if (surface == nullptr) {
+      follows = false;
+      continue;
+    }
+    const double dx = sensor.x + range * std::cos(angle) - robot.x;
+    const double dy = sensor.y + range * std::sin(angle) - robot.y;
+    const double offX = static_cast<double>(surface->x) - robot.x - dx;
+    const double offY = static_cast<double>(surface->y) - robot.y - dy;
+    const auto add = [&](double nx, double ny, double sigma, double ofEnd, bool isNext) {
+      residuals.push_back(
+          {nx * offX + ny * offY, std::hypot(sigma, ofEnd), {nx, ny, ny * dx - nx * dy}, isNext});
+    };
+    const auto nx = static_cast<double>(surface->normalX);
+    const auto ny = static_cast<double>(surface->normalY);
+    const auto across = static_cast<double>(surface->across);
+    const double sigma = model.sigmaAt(range);
+    const bool isLine = surface->along < 0.0F;
+    const double slant = std::max(0.15, std::abs(nx * std::cos(angle) + ny * std::sin(angle)));
+    add(nx, ny, isLine ? sigma * slant : sigma, across, isLine && follows);
+    if (!isLine) add(-ny, nx, sigma, static_cast<double>(surface->along), false);
+    follows = isLine;
+  }
+  return residuals;
+}
+
+/// @returns the slope by any instruction set, all of which give the same bits
+Slope slopeByAll(const SurfaceFit& fit, const Pose2& robot) {
   std::optional<Slope> first;
-  for (const InstructionSet set :
-       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+  for (const InstructionSet set : {InstructionSet::kPortable, InstructionSet::kAvx2,
+                                   InstructionSet::kAvx512, InstructionSet::kNeon}) {
     if (!hasInstructionSet(set)) continue;
     useInstructionSet(set);
     const Slope slope = fit.slopeAt(robot);
     useInstructionSet(std::nullopt);
-    // Its shares of inliers are in single precision.
-    for (std::size_t k = 0; k < 9; ++k)
-      EXPECT_NEAR(slope.information[k], naive.information[k], 1e-4 * naive.information[0]) << k;
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR(slope.pull[k], naive.pull[k], 1e-4 * std::abs(naive.pull[0])) << k;
     if (!first) first = slope;
     EXPECT_EQ(slope.information, first->information);
     EXPECT_EQ(slope.pull, first->pull);
   }
+  return *first;
+}
+
+/// Shares of inliers are in single precision. @param reach greatest distance of an end [m]
+void expectNear(const Slope& slope, const Slope& naive, double reach) {
+  const std::array<double, 3> unit = {1.0, 1.0, reach};
+  const double information = 1e-4 * std::max(naive.information[0], naive.information[4]);
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_NEAR(slope.pull[row], naive.pull[row], 0.03 * information * unit[row]) << row;
+    for (std::size_t column = 0; column < 3; ++column)
+      EXPECT_NEAR(slope.information[3 * row + column], naive.information[3 * row + column],
+                  information * unit[row] * unit[column])
+          << row << ", " << column;
+  }
+}
+
+/// A hall with a thin wall in it, and posts that are no lines.
+std::shared_ptr<const SurfaceField> hall() {
+  auto field = std::make_shared<SurfaceField>();
+  field->start(test::Room{12, 8}.region(0.1, 0.2), 0.05, 0.1);
+  for (double y = -4.0; y <= 4.0; y += 0.003)
+    for (const double x : {-6.0, 6.0}) field->mark(x, y);
+  for (double x = -6.0; x <= 6.0; x += 0.003)
+    for (const double y : {-4.0, 4.0}) field->mark(x, y);
+  for (double y = -4.0; y <= 1.0; y += 0.003)
+    for (const double x : {1.0, 1.15}) field->mark(x, y);
+  for (double angle = 0.0; angle < 6.28; angle += 0.05)
+    for (const double x : {-3.525, 3.525})
+      field->mark(x + 0.02 * std::cos(angle), 0.525 + 0.02 * std::sin(angle));
+  field->finish();
+  return field;
+}
+
+// Beams end at surfaces, before them, and where nothing is; there are more of them than one loop
+// does at a time, and none or nearly none, too.
+TEST(SurfaceFit, IsThatOfTheFormulasBeamByBeam) {
+  const SensorModel model{.sigma = 0.03, .sigmaPerMetre = 0.01, .outliers = 0.1};
+  const Pose2 mount{0.1, -0.05, 0.2};
+  const auto field = hall();
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  std::size_t crossed = 0;
+  std::size_t spots = 0;
+  for (const int count : {0, 1, 7, 64, 65, 130, 361}) {
+    for (int repeat = 0; repeat < 8; ++repeat) {
+      const Pose2 robot{3.0 * any(random), 2.0 * any(random), 3.0 * any(random)};
+      const Pose2 sensor = robot * mount;
+      SurfaceFit fit(field, mount, model);
+      std::vector<SeenBeam> beams;
+      for (int k = 0; k < count; ++k) {
+        const double bearing = 6.28 * k / count - 3.14;
+        const double met = rangeAlong(*field, sensor * Pose2{0.0, 0.0, bearing}, 20.0);
+        const double range = std::max(0.0, k % 17 == 5 ? 0.5 * met : met + 0.15 * any(random));
+        beams.push_back({range, bearing});
+        fit.add(range, bearing);
+        const Pose2 beam{sensor.x, sensor.y, sensor.theta + bearing};
+        const Surface* shown = naivelyShown(*field, beam, range);
+        const Surface* atEnd = field->near(sensor.x + range * std::cos(beam.theta),
+                                           sensor.y + range * std::sin(beam.theta));
+        crossed += shown != atEnd;
+        spots += shown != nullptr && shown->along >= 0.0F;
+      }
+      const Pose2 near{robot.x + 0.05 * any(random), robot.y + 0.05 * any(random),
+                       robot.theta + 0.02 * any(random)};
+      const auto residuals = naiveResiduals(*field, beams, mount, model, near);
+      SCOPED_TRACE(testing::Message() << count << " beams, " << residuals.size() << " residuals");
+      expectNear(slopeByAll(fit, near), naiveSlopeOf(residuals, model.outliers), 15.0);
+    }
+  }
+  EXPECT_GT(crossed, 100u);
+  EXPECT_GT(spots, 30u);
 }
 
 TEST(SurfaceFit, OfNothingSaysNothing) {

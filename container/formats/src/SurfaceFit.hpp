@@ -19,7 +19,7 @@ class ORTUNG_API SurfaceFit {
              const SensorModel& model)
       : surfaces_(std::move(surfaces)), mount_(mount), model_(model) {}
 
-  bool isEmpty() const { return ends_.empty() || !surfaces_ || surfaces_->isEmpty(); }
+  bool isEmpty() const { return range_.empty() || !surfaces_ || surfaces_->isEmpty(); }
   /// In the order of bearings. @param range finite [m] @param bearing in the sensor's frame [rad]
   void add(double range, double bearing);
   /// Residuals are distances from lines, whose variance is that of the range as a line at that
@@ -29,19 +29,16 @@ class ORTUNG_API SurfaceFit {
   Slope slopeAt(const Pose2& robot) const;
 
  private:
-  /// In the robot frame.
-  struct End {
-    double x;  ///< [m]
-    double y;  ///< [m]
-    double c;  ///< direction of its beam
-    double s;
-    double range;     ///< distance from the sensor [m]
-    double variance;  ///< of the range [m^2]
-  };
   std::shared_ptr<const SurfaceField> surfaces_;
   Pose2 mount_;
   SensorModel model_;
-  std::vector<End> ends_;
+  // The ends in the robot frame: a row of each quantity.
+  std::vector<double> x_;  ///< [m]
+  std::vector<double> y_;
+  std::vector<double> c_;  ///< direction of its beam
+  std::vector<double> s_;
+  std::vector<double> range_;     ///< distance from the sensor [m]
+  std::vector<double> variance_;  ///< of the range [m^2]
 };
 
 }  // namespace ortung

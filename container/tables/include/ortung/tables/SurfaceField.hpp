@@ -51,6 +51,13 @@ class ORTUNG_API SurfaceField {
     const std::int32_t number = numberAt(static_cast<int>(column), static_cast<int>(row));
     return number < 0 ? nullptr : &surfaces_[static_cast<std::size_t>(number)];
   }
+  /// Number of the surface nearest to a cell, or -1. @pre the cell is in the grid
+  std::int32_t numberAt(int column, int row) const {
+    const std::int32_t block = blockOf_[blockAt(column, row)];
+    return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)][within(column, row)];
+  }
+  /// All surfaces, by number.
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
 
   void save(TableWriter& file, const std::string& prefix) const;
   /// Files of older versions have no surfaces: then it stays empty.
@@ -90,11 +97,6 @@ class ORTUNG_API SurfaceField {
   static std::size_t within(int column, int row) {
     return static_cast<std::size_t>(row) % kBlock * kBlock +
            static_cast<std::size_t>(column) % kBlock;
-  }
-  /// Number of the cell's surface, or -1. @pre in the grid
-  std::int32_t numberAt(int column, int row) const {
-    const std::int32_t block = blockOf_[blockAt(column, row)];
-    return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)][within(column, row)];
   }
   std::int32_t& numberFor(int column, int row);
   void checkAndClear();
