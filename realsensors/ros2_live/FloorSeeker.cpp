@@ -25,7 +25,7 @@ bool isSettledOn(const std::string& floor, const Localization& localization) {
   if (!localization.mcl().belief()) return false;
   const Building& building = buildingOf(localization);
   const auto index = building.find(floor);
-  return index && sharesOf(building, localization.mcl().samples())[*index] > LiveFloors::kNearlyAll;
+  return index && localization.mcl().floorShares()[*index] > LiveFloors::kNearlyAll;
 }
 
 void sayThereIsNoRoom(const std::string& floor) {

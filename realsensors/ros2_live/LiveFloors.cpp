@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <utility>
 
 namespace ortung::ros2 {
 namespace {
@@ -18,23 +18,6 @@ std::string twoDigits(double share) {
 
 }  // namespace
 
-std::vector<double> sharesOf(const Building& building, const SampleSet& samples) {
-  std::vector<double> shares(building.floors.size(), 0.0);
-  float most = -std::numeric_limits<float>::infinity();
-  for (const float weight : samples.logWeight) most = std::fmax(most, weight);
-  if (!std::isfinite(most)) return shares;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double weight = std::exp(static_cast<double>(samples.logWeight[i] - most));
-    if (!std::isfinite(samples.x[i]) || !std::isfinite(weight)) continue;
-    shares[building.floorAt(static_cast<double>(samples.x[i]))] += weight;
-    sum += weight;
-  }
-  if (sum > 0.0)
-    for (double& share : shares) share /= sum;
-  return shares;
-}
-
 void LiveFloors::enter(const Building& building, const std::string& floor) {
   const std::lock_guard lock(mutex_);
   std::string name = floor;
@@ -44,10 +27,11 @@ void LiveFloors::enter(const Building& building, const std::string& floor) {
   shares_.clear();
 }
 
-void LiveFloors::follow(const PoseEstimate& estimate, const SampleSet& samples) {
+void LiveFloors::follow(const PoseEstimate& estimate, std::vector<double> shares) {
   const std::lock_guard lock(mutex_);
   if (building_.isEmpty() || !std::isfinite(estimate.pose.x)) return;
-  shares_ = sharesOf(building_, samples);
+  if (shares.size() != building_.floors.size()) return;  // of another building
+  shares_ = std::move(shares);
   const std::size_t there = building_.floorAt(estimate.pose.x);
   if (estimate.status != TrackStatus::kLost && shares_[there] > kNearlyAll) present_ = there;
 }

@@ -8,15 +8,10 @@
 
 #include "ortung/base/Pose2.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
-#include "ortung/mcl/SampleSet.hpp"
 #include "ortung/ros2/Messages.hpp"
 #include "ortung/tables/Building.hpp"
 
 namespace ortung::ros2 {
-
-/// Returns how much of a belief is on each floor, in [0, 1], of sum 1; all 0 without samples.
-/// @pre the building has floors
-std::vector<double> sharesOf(const Building& building, const SampleSet& samples);
 
 /// On which floor of a building the robot is, as it is told to others: what they hear and say is in
 /// the frame of that floor, of the first one before any is known. In a field without floors all
@@ -29,10 +24,10 @@ class LiveFloors {
   /// Goes on in another building. @param floor on which the robot is there; "": on the one of the
   /// same name, if there is one
   void enter(const Building& building, const std::string& floor = "");
-  /// Takes a new estimate and its samples. A floor becomes the robot's when nearly all of the
-  /// belief is there: who drives by one map is better off with it than with one that comes and
-  /// goes.
-  void follow(const PoseEstimate& estimate, const SampleSet& samples);
+  /// Takes a new estimate and the belief's shares of the floors (Mcl::floorShares). A floor becomes
+  /// the robot's when nearly all of the belief is there: who drives by one map is better off with
+  /// it than with one that comes and goes.
+  void follow(const PoseEstimate& estimate, std::vector<double> shares);
   /// Says that the robot is on a floor. @return whether there is one of that name
   bool goTo(const std::string& floor);
 

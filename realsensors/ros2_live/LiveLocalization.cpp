@@ -288,7 +288,7 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
   const auto estimate = localization_->update();
   if (estimate) {
     seeker_.onEstimate(*localization_);
-    floors_.follow(*estimate, localization_->mcl().samples());
+    floors_.follow(*estimate, localization_->mcl().floorShares());
     tellFloor();
     tellPose(*estimate);
     if (isActive_) likelihood_.tell(localization_->robot(), estimate->pose.theta, floors_.frame());

@@ -40,6 +40,10 @@ class LookalikesTest : public testing::Test {
     return {weigh, [](const SampleSet&) { return 1.0; }};
   }
   /// The belief's places: the robot's pose, and the opposite one with the rest of the share.
+  void look(const Lookalikes::Moment& moment, const Evidence& evidence) {
+    lookalikes_.follow(moment);
+    lookalikes_.compare(moment, evidence);
+  }
   void begin(double share) {
     PoseEstimate own;
     own.pose = robot_;
@@ -47,14 +51,13 @@ class LookalikesTest : public testing::Test {
     PoseEstimate other;
     other.pose = opposite(robot_);
     other.share = 1.0 - share;
-    lookalikes_.follow({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
+    look({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
     lookalikes_.add(std::vector{own, other});
   }
   void drive(int readings, const Against& against, double step = 0.2) {
     for (int i = 0; i < readings; ++i) {
       robot_ = robot_ * Pose2{step, 0.0, 0.05};
-      lookalikes_.follow({robot_, robot_, step, Random(2, static_cast<std::uint64_t>(i))},
-                         evidence(against(i)));
+      look({robot_, robot_, step, Random(2, static_cast<std::uint64_t>(i))}, evidence(against(i)));
     }
   }
 
@@ -113,13 +116,12 @@ TEST_F(LookalikesTest, ReadingsFromOnePlaceDoNotCount) {
 TEST_F(LookalikesTest, ChangeRolesWithTheEstimate) {
   begin(0.6);
   robot_ = robot_ * Pose2{0.2, 0.0, 0.0};
-  lookalikes_.follow({opposite(robot_), robot_, 0.2, Random(3, 0)}, evidence(0.0));
+  look({opposite(robot_), robot_, 0.2, Random(3, 0)}, evidence(0.0));
   ASSERT_FALSE(lookalikes_.isEmpty());
   EXPECT_NEAR(lookalikes_.reach(0.001).metres, 2.0 * std::hypot(robot_.x, robot_.y), 0.1);
   for (int i = 0; i < 6; ++i) {
     robot_ = robot_ * Pose2{0.2, 0.0, 0.05};
-    lookalikes_.follow({opposite(robot_), robot_, 0.2, Random(4, static_cast<std::uint64_t>(i))},
-                       evidence(8.0));
+    look({opposite(robot_), robot_, 0.2, Random(4, static_cast<std::uint64_t>(i))}, evidence(8.0));
   }
   EXPECT_NEAR(lookalikes_.shareOfEstimate(), 0.5, 0.01) << "what speaks for one is no certainty";
 }
@@ -128,8 +130,7 @@ TEST_F(LookalikesTest, FollowWithoutOdometryAsTheEstimateMoves) {
   begin(0.5);
   for (int i = 0; i < 50; ++i) {
     robot_ = robot_ * Pose2{0.2, 0.0, 0.05};
-    lookalikes_.follow({robot_, std::nullopt, 0.2, Random(5, static_cast<std::uint64_t>(i))},
-                       evidence(0.0));
+    look({robot_, std::nullopt, 0.2, Random(5, static_cast<std::uint64_t>(i))}, evidence(0.0));
   }
   EXPECT_NEAR(lookalikes_.reach(0.001).metres, 2.0 * std::hypot(robot_.x, robot_.y), 0.2);
   EXPECT_LT(lookalikes_.shareOfEstimate(), 0.8);
@@ -141,7 +142,7 @@ TEST_F(LookalikesTest, ClimbToWhereReadingsFit) {
   own.share = 0.5;
   PoseEstimate other = own;
   other.pose = opposite(robot_) * Pose2{0.2, -0.1, 0.08};
-  lookalikes_.follow({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
+  look({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
   lookalikes_.add(std::vector{own, other});
   drive(20, [](int) { return 0.0; });
   EXPECT_NEAR(lookalikes_.reach(0.001).metres, 2.0 * std::hypot(robot_.x, robot_.y), 0.1);
@@ -154,7 +155,7 @@ TEST_F(LookalikesTest, OneThatIsTheEstimatesPlaceIsNone) {
   own.share = 0.5;
   PoseEstimate other = own;
   other.pose = robot_ * Pose2{0.1, 0.0, 0.0};
-  lookalikes_.follow({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
+  look({robot_, robot_, 0.0, Random(1, 0)}, evidence(0.0));
   lookalikes_.add(std::vector{own, other});
   EXPECT_TRUE(lookalikes_.isEmpty());
 }
@@ -192,13 +193,30 @@ TEST(LookalikesOfFloors, EqualFloorsAreNeverToldApart) {
   own.share = 0.5;
   PoseEstimate other = own;
   other.pose = {42.1, 1.1, 0.25};
-  lookalikes.follow({robot, robot, 0.0, Random(1, 0)}, evidence);
+  const auto look = [&](const Lookalikes::Moment& moment) {
+    lookalikes.follow(moment);
+    lookalikes.compare(moment, evidence);
+  };
+  look({robot, robot, 0.0, Random(1, 0)});
   lookalikes.add(std::vector{own, other});
   for (int i = 0; i < 300; ++i) {
     robot = robot * Pose2{0.05, 0.0, 0.05};
-    lookalikes.follow({robot, robot, 0.2, Random(2, static_cast<std::uint64_t>(i))}, evidence);
+    look({robot, robot, 0.2, Random(2, static_cast<std::uint64_t>(i))});
     ASSERT_NEAR(lookalikes.shareOfEstimate(), 0.5, 0.05) << i;
+    ASSERT_NEAR(lookalikes.floorShares()[0], 0.5, 0.05) << i;
+    ASSERT_NEAR(lookalikes.floorShares()[1], 0.5, 0.05) << i;
   }
+}
+
+/// Without time for comparisons the places are moved all the same, and say what they said before.
+TEST_F(LookalikesTest, MoveWhileThereIsNoTimeToCompareThem) {
+  begin(0.75);
+  for (int i = 0; i < 50; ++i) {
+    robot_ = robot_ * Pose2{0.2, 0.0, 0.05};
+    lookalikes_.follow({robot_, robot_, 0.2, Random(6, static_cast<std::uint64_t>(i))});
+  }
+  EXPECT_NEAR(lookalikes_.shareOfEstimate(), 0.75, 1e-9);
+  EXPECT_NEAR(lookalikes_.reach(0.001).metres, 2.0 * std::hypot(robot_.x, robot_.y), 1e-6);
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // x = 0, 30 and 60 in the field; all else is computed by hand.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
 #include <map>
 
 #include "LiveFloors.hpp"
@@ -23,14 +21,6 @@ PoseEstimate at(const Pose2& pose, TrackStatus status = TrackStatus::kTracking) 
   return estimate;
 }
 
-/// Samples of equal weight at these places.
-SampleSet samplesAt(const std::vector<float>& x) {
-  SampleSet samples;
-  samples.resize(x.size());
-  samples.x = x;
-  return samples;
-}
-
 std::map<std::string, std::string> described(const LiveFloors& floors) {
   DiagnosticArray::Status status;
   floors.describe(status);
@@ -39,32 +29,10 @@ std::map<std::string, std::string> described(const LiveFloors& floors) {
   return values;
 }
 
-TEST(LiveFloors, ShareABeliefByItsWeights) {
-  SampleSet samples = samplesAt({1.0F, 32.0F, 33.0F, 70.0F});
-  samples.logWeight = {std::log(4.0F), std::log(2.0F), std::log(1.0F), std::log(1.0F)};
-  const auto shares = sharesOf(house(), samples);
-  ASSERT_EQ(shares.size(), 3U);
-  EXPECT_NEAR(shares[0], 0.5, 1e-6);
-  EXPECT_NEAR(shares[1], 0.375, 1e-6);
-  EXPECT_NEAR(shares[2], 0.125, 1e-6);
-  samples.logWeight = {-2000.0F, -2000.0F, -2000.0F, -2000.0F};  // e^-2000 is no number
-  EXPECT_NEAR(sharesOf(house(), samples)[1], 0.5, 1e-6);
-}
-
-TEST(LiveFloors, AreNoneWithoutSamplesOrWithThoseThatAreNoNumbers) {
-  EXPECT_EQ(sharesOf(house(), {}), std::vector<double>(3, 0.0));
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  SampleSet samples = samplesAt({kNan, 31.0F});
-  samples.logWeight = {0.0F, 0.0F};
-  EXPECT_EQ(sharesOf(house(), samples), (std::vector<double>{0.0, 1.0, 0.0}));
-  samples.logWeight = {kNan, kNan};
-  EXPECT_EQ(sharesOf(house(), samples), std::vector<double>(3, 0.0));
-}
-
 TEST(LiveFloors, LeaveAllAsItIsWhereThereAreNone) {
   LiveFloors floors;
   floors.enter({});
-  floors.follow(at({40.0, 1.0, 0.5}), samplesAt({40.0F}));
+  floors.follow(at({40.0, 1.0, 0.5}), {});
   EXPECT_EQ(floors.name(), "");
   EXPECT_FALSE(floors.frame());
   EXPECT_TRUE(floors.isHere({40.0, 1.0, 0.5}));
@@ -81,11 +49,9 @@ TEST(LiveFloors, StayUntilNearlyAllOfTheBeliefIsElsewhere) {
   // Before any floor is known, poses of others are on the first one, and none is the robot's.
   EXPECT_EQ(floors.toField({2.0, 3.0, 0.0}).x, 2.0);
   EXPECT_FALSE(floors.isHere({2.0, 3.0, 0.0}));
-  std::vector<float> places(100, 35.0F);
-  places[0] = places[1] = places[2] = 5.0F;
-  floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kLost), samplesAt(places));
+  floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kLost), {0.03, 0.97, 0.0});
   EXPECT_EQ(floors.name(), "") << "a lost robot is on no floor";
-  floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kUncertain), samplesAt(places));
+  floors.follow(at({35.0, 1.0, 0.0}, TrackStatus::kUncertain), {0.03, 0.97, 0.0});
   EXPECT_EQ(floors.name(), "first");
   EXPECT_TRUE(floors.isHere({35.0, 1.0, 0.0}));
   EXPECT_FALSE(floors.isHere({5.0, 1.0, 0.0}));
@@ -93,15 +59,15 @@ TEST(LiveFloors, StayUntilNearlyAllOfTheBeliefIsElsewhere) {
   EXPECT_DOUBLE_EQ(floors.toField({5.0, 1.0, 0.25}).x, 35.0);
   EXPECT_EQ(floors.frame()->name, "first");
 
-  std::fill(places.begin(), places.begin() + 60, 65.0F);
-  floors.follow(at({65.0, 1.0, 0.0}), samplesAt(places));
+  floors.follow(at({65.0, 1.0, 0.0}), {0.0, 0.4, 0.6});
   EXPECT_EQ(floors.name(), "first") << "of the belief, 60 % are elsewhere";
   EXPECT_FALSE(floors.isHere({65.0, 1.0, 0.0})) << "so its pose is of no map that others have";
   EXPECT_EQ(described(floors).at("floors"), "first 0.40, attic 0.60");
   EXPECT_NE(described(floors).at("message").find("open: first 0.40, attic 0.60"),
             std::string::npos);
-  std::fill(places.begin(), places.end(), 65.0F);
-  floors.follow(at({65.0, 1.0, 0.0}), samplesAt(places));
+  floors.follow(at({65.0, 1.0, 0.0}), {1.0});
+  EXPECT_EQ(floors.name(), "first") << "shares of another building say nothing";
+  floors.follow(at({65.0, 1.0, 0.0}), {0.0, 0.0, 1.0});
   EXPECT_EQ(floors.name(), "attic");
   EXPECT_EQ(described(floors),
             (std::map<std::string, std::string>{{"message", ""}, {"floor", "attic"}}));

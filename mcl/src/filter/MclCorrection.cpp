@@ -303,8 +303,9 @@ Estimated Mcl::Impl::estimateFrom(Led led) {
   const Timestamp stamp = led.moment.stamp;
   const std::vector<NewReading>& news = *led.moment.news;
   const std::size_t samples = led.weights.size();
-  tools.time.follows(Work::kEstimate, samples);
+  tools.time.follows(Work::kLookalikes, samples);
   lookElsewhere(led);
+  tools.time.follows(Work::kEstimate, samples);
   track->travelled = {};
   estimateRoughly(led);
   refine(news, samples);
@@ -351,23 +352,25 @@ void Mcl::Impl::followFloor(const Pose2& before) {
   steps.because(Relocalization::kOtherPlace);
 }
 
-/// Follows other places at which readings fit as well.
+/// Follows other places at which readings fit as well. Readings may have to wait to be asked about
+/// them; new ones are always noted, since samples may have left them soon.
 void Mcl::Impl::lookElsewhere(const Led& led) {
+  Lookalikes& lookalikes = track->lookalikes;
   const Lookalikes::Moment moment{led.estimate.pose,
                                   track->isBlind ? std::nullopt : reached.odometry,
                                   track->travelled.all, random(Purpose::kRivals).fork(7)};
-  const auto poses = static_cast<double>(track->lookalikes.poses());
-  const UpdateTime::Step begins(
-      tools.time, Work::kLookalikes,
-      tools.time.timeOfPoses(poses, nanosecondsOf(*led.moment.news)) +
-          tools.time.timeOf(Work::kLookalikes, UpdateTime::sizeOf(led.weights.size())));
-  if (!begins) return;  // they are moved next time
-  track->lookalikes.follow(moment, led.moment.evidence);
+  lookalikes.follow(moment);
+  {
+    const UpdateTime::Step begins(tools.time, Work::kLookalikes,
+                                  tools.time.timeOfPoses(static_cast<double>(lookalikes.poses()),
+                                                         nanosecondsOf(*led.moment.news)));
+    if (begins) lookalikes.compare(moment, led.moment.evidence);
+  }
+  if (led.estimate.share >= 1.0 - tuning::lookalikes::kLeastShare) return;
   const UpdateTime::Measured finding(tools.time, Work::kLookalikes,
                                      UpdateTime::sizeOf(led.weights.size()));
-  if (led.estimate.share >= 1.0 - tuning::lookalikes::kLeastShare) return;
-  track->lookalikes.add(clustersOf(led.bins, track->belief.samples().view(), led.weights,
-                                   tuning::lookalikes::kLeastShare));
+  lookalikes.add(clustersOf(led.bins, track->belief.samples().view(), led.weights,
+                            tuning::lookalikes::kLeastShare));
 }
 
 /// Returns how far the belief reaches at other places than the estimate's.

@@ -9,8 +9,8 @@ using namespace tuning::budget;
 
 namespace {
 
-constexpr std::array kFollowing = {Work::kClusters, Work::kEstimate, Work::kRefining,
-                                   Work::kClosing, Work::kResampling};
+constexpr std::array kFollowing = {Work::kClusters, Work::kLookalikes, Work::kEstimate,
+                                   Work::kRefining, Work::kClosing,    Work::kResampling};
 
 /// Returns how often work is refused in a row before it begins although it may be late, so that
 /// nothing starves. A slice of a search is small, and a first estimate comes once.

@@ -24,9 +24,9 @@ enum class Work : std::uint8_t {
   kElsewhere,
   kDrawing,
   kDelays,
-  kLookalikes,  // their poses are weighed
   // What follows in any case, in this order; the size is UpdateTime::sizeOf(), of kRefining 1.
   kClusters,
+  kLookalikes,  ///< without their comparison, whose poses are weighed and which can wait
   kEstimate,
   kRefining,
   kClosing,

@@ -40,7 +40,7 @@ std::size_t Lookalikes::poses() const {
   return places_.empty() ? 0 : (places_.size() + 1) * lookalikes::kTried;
 }
 
-void Lookalikes::follow(const Moment& moment, const Evidence& evidence) {
+void Lookalikes::follow(const Moment& moment) {
   const Pose2 before = std::exchange(estimate_, moment.estimate);
   const std::optional<Pose2> from = std::exchange(odometry_, moment.odometry);
   if (places_.empty()) return;
@@ -49,6 +49,10 @@ void Lookalikes::follow(const Moment& moment, const Evidence& evidence) {
   for (Place& place : places_) place.pose = place.pose * motion;
   exchange(before * motion, estimate_);
   alignFloors();
+}
+
+void Lookalikes::compare(const Moment& moment, const Evidence& evidence) {
+  if (places_.empty()) return;
   const std::vector<double> logs = heights(evidence, moment.random);
   for (std::size_t i = 0; i < places_.size(); ++i)
     places_[i].add(logs[i + 1] - logs[0], moment.travelled / common::kIndependent);
@@ -139,6 +143,15 @@ double Lookalikes::shareOfEstimate() const {
   double all = 1.0;
   for (const Place& place : places_) all += std::exp(place.odds());
   return 1.0 / all;
+}
+
+std::vector<double> Lookalikes::floorShares() const {
+  std::vector<double> shares(building_.floors.size(), 0.0);
+  const double own = shareOfEstimate();
+  shares[floor()] = own;
+  for (const Place& place : places_)
+    shares[building_.floorAt(place.pose.x)] += own * std::exp(place.odds());
+  return shares;
 }
 
 PoseDistance Lookalikes::reach(double rest) const {

@@ -36,14 +36,21 @@ class ORTUNG_API Lookalikes {
 
   void forget();
   bool isEmpty() const { return places_.empty(); }
-  /// Returns how many poses follow() weighs.
+  /// Returns how many poses compare() weighs.
   std::size_t poses() const;
-  /// Compares the places with the estimate. If that is at one of them now, they change roles.
-  void follow(const Moment& moment, const Evidence& evidence);
+  /// Moves the places as the robot does. If the estimate is at one of them now, they change roles.
+  void follow(const Moment& moment);
+  /// Compares the places with the estimate. @pre follow(moment)
+  void compare(const Moment& moment, const Evidence& evidence);
   /// Adds the belief's places, if they are new. @param places the estimate's is the first one
   void add(std::span<const PoseEstimate> places);
   /// Returns the estimate's share of the probability of all places, in (0, 1]; 1 without others.
   double shareOfEstimate() const;
+  /// Returns the shares of floors of the probability of all places, of sum 1.
+  /// @pre the building has floors, and follow() was called
+  std::vector<double> floorShares() const;
+  /// Returns the floor of the estimate at the last readings. @pre as above
+  std::size_t floor() const { return building_.floorAt(estimate_.x); }
   /// Returns how far the places are from the estimate that may not be left out with a probability
   /// of more than @p rest.
   PoseDistance reach(double rest) const;

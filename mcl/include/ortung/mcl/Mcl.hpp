@@ -104,6 +104,11 @@ class ORTUNG_API Mcl {
   /// quality are those of the whole belief. It is empty while a global start waits for its first
   /// reading, or searches.
   std::vector<PoseEstimate> places(double least = 0.01) const;
+  /// Returns the share of each floor of the building, in its order and of sum 1: of the present
+  /// samples, or of places that look like the estimate's, if that is greater. Between floors that
+  /// look the same, samples gather on one of them by chance; those places stay until readings have
+  /// ruled them out. It is empty in a field that is no building, and all 0 without samples.
+  std::vector<double> floorShares() const;
   /// Returns whether there is odometry; without it, process noise moves samples
   /// (MclConfig::driftMetres).
   bool hasOdometry() const;
