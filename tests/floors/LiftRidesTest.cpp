@@ -133,8 +133,9 @@ class LiftRides : public ::testing::Test {
     figures.add(follow);
   }
 
-  /// Switches the robot on somewhere, and adds what became of it.
-  void start(std::uint64_t seed, Figures& figures) {
+  /// Switches the robot on somewhere, and adds what became of it. @param turn how far it turns
+  /// [rad]
+  void start(std::uint64_t seed, Figures& figures, double turn = 4.0) {
     Random random(seed, 6);
     LiftRide robot(*world_, seed);
     Localization localization(
@@ -150,7 +151,7 @@ class LiftRides : public ::testing::Test {
                                                             random.uniform(-3.0, 3.0)}));
     Follower follow(robot, localization, building_);
     follow.begin();
-    robot.turn(4.0, follow);
+    robot.turn(turn, follow);
     figures.add(follow);
   }
 
@@ -202,8 +203,8 @@ TEST_F(LiftRides, ThatNobodyToldOfAreNoticed) {
 
 /// Between equal floors samples gather on one of them by chance; no floor is theirs for that.
 TEST_F(LiftRides, AreNotNeededToLeaveTwoEqualFloorsOpenAtTheStart) {
-  const Figures figures =
-      many(rides(), true, kLift, [this](std::uint64_t seed, Figures& f) { start(seed, f); });
+  const Figures figures = many(2 * rides(), true, kLift,
+                               [this](std::uint64_t seed, Figures& f) { start(seed, f, 40.0); });
   EXPECT_EQ(figures.confidentlyWrong, 0);
   EXPECT_EQ(figures.settledWrongly, 0);
 }
