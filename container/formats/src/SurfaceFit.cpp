@@ -45,6 +45,17 @@ struct TurnedBeams {
   }
 };
 
+/// Writes a residual and its derivatives. @param nx, ny direction in which it is measured
+/// @param off distance in this direction [m] @param lever its derivative by the heading [m]
+ORTUNG_INLINE void putResidual(std::size_t i, double nx, double ny, double off, double lever,
+                               double perSigma, FitResiduals::Block* out) {
+  out->off[i] = off * perSigma;
+  out->x[i] = nx * perSigma;
+  out->y[i] = ny * perSigma;
+  out->theta[i] = lever * perSigma;
+  out->lever[i] = lever;
+}
+
 /// Computes the residuals of ends across lines, and in one direction of spots.
 struct ResidualsAcross {
   ORTUNG_INLINE static void run(const BeamRows* beams, const Surface* surfaces,
@@ -64,11 +75,7 @@ struct ResidualsAcross {
       const double times = surface.along < 0.0F ? least : 1.0;
       const double perSigma = 1.0 / std::sqrt(variance[i] * times + across * across);
       const double lever = ny * beams->dx[i] - nx * beams->dy[i];
-      out->off[i] = (nx * offX + ny * offY) * perSigma;
-      out->x[i] = nx * perSigma;
-      out->y[i] = ny * perSigma;
-      out->theta[i] = lever * perSigma;
-      out->lever[i] = lever;
+      putResidual(i, nx, ny, nx * offX + ny * offY, lever, perSigma, out);
     }
   }
 };
@@ -87,11 +94,7 @@ struct ResidualsAlong {
       const double offY = static_cast<double>(surface.y) - robot.y - beams->dy[i];
       const double perSigma = 1.0 / std::sqrt(variance[i] + along * along);
       const double lever = ny * beams->dx[i] - nx * beams->dy[i];
-      out->off[i] = (nx * offX + ny * offY) * perSigma;
-      out->x[i] = nx * perSigma;
-      out->y[i] = ny * perSigma;
-      out->theta[i] = lever * perSigma;
-      out->lever[i] = lever;
+      putResidual(i, nx, ny, nx * offX + ny * offY, lever, perSigma, out);
     }
   }
 };
