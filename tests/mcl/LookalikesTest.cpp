@@ -39,11 +39,12 @@ class LookalikesTest : public testing::Test {
     };
     return {weigh, [](const SampleSet&) { return 1.0; }};
   }
-  /// The belief's places: the robot's pose, and the opposite one with the rest of the share.
+  /// Moves the places, and compares them.
   void look(const Lookalikes::Moment& moment, const Evidence& evidence) {
     lookalikes_.follow(moment);
     lookalikes_.compare(moment, evidence);
   }
+  /// The belief's places: the robot's pose, and the opposite one with the rest of the share.
   void begin(double share) {
     PoseEstimate own;
     own.pose = robot_;

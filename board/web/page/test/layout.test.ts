@@ -15,7 +15,7 @@ function chance(seed: number): () => number {
   };
 }
 
-const kKeys = ["error distance", "error heading", "LMS200/LRF/180DegreeScan nearest", "a.b/c_d/e*f x-y", "mcl/work/ü° effective samples"];
+const kKeys = ["error distance", "error heading", "LMS200/LRF/180DegreeScan nearest", "a.b/c_d/e*f x-y", "mcl/effort/ü° effective samples"];
 const kWays: Way[] = ["up", "down", "left", "right", "bottom", "earlier", "later"];
 const where = (layout: Layout) => kAreas.map((area) => layout.groups[area].map(({ panels }) => panels.join("+")).join(" | "));
 const curve = (key: string, unit = "m") => ({ key, unit });
