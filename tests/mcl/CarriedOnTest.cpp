@@ -134,6 +134,26 @@ TEST(CarriedOn, AChangeHasTheMeanAndCovarianceOfItsSamplesWithAnyInstructionSet)
   }
 }
 
+/// Knows what its samples would be, and has none.
+class Known : public MotionModel, public MotionMoments {
+ public:
+  void sampleMotion(const MovableSamples&, const Pose2&, std::uint64_t, std::uint64_t,
+                    std::uint64_t) const override {
+    ADD_FAILURE() << "it is sampled";
+  }
+  std::optional<MotionChange> moments(const Pose2& change) const override {
+    return MotionChange{{2.0 * change.x, 0.5, 0.25}, independent(1e-3, 2e-3, 3e-3)};
+  }
+};
+
+TEST(CarriedOn, AMotionThatKnowsItsMomentsIsNotSampled) {
+  const MotionChange change = changeOf(Known(), {0.3, 0, 0}, 1, 2);
+  EXPECT_EQ(change.mean.x, 2.0 * 0.3);
+  EXPECT_EQ(change.mean.y, 0.5);
+  EXPECT_EQ(change.mean.theta, 0.25);
+  EXPECT_EQ(change.covariance, independent(1e-3, 2e-3, 3e-3));
+}
+
 TEST(CarriedOn, AChangeWithoutNoiseHasNoNegativeVariance) {
   for (const double x : {0.1, 0.37, 1.3}) {
     const MotionChange change = changeOf(Kept(0.0), {x, 0.3 * x, 0.1}, 1, 2);

@@ -196,7 +196,7 @@ TEST(Contained, SensorsThatFailWhileTablesAreLearned) {
 
 TEST(Contained, MotionModelsThatFail) {
   PluginFactory factory({ORTUNG_PLUGINS_DIR, TEST_PLUGINS});
-  for (const char* where : {"follow", "odometryAt", "sampleMotion"})
+  for (const char* where : {"follow", "odometryAt", "sampleMotion", "moments"})
     for (const char* how : kHow)
       for (const unsigned threads : {1u, 2u}) {
         if (where == std::string("follow") && how == std::string("nan")) continue;  // gives nothing

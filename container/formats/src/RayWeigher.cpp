@@ -24,6 +24,8 @@ constexpr std::size_t kCacheLine = 64;  ///< [bytes]
 constexpr double kStepsAnOctave = 8.0;
 constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of costs per level
 
+double square(double value) { return value * value; }
+
 /// Computes where samples look into the ray table, a block of them at a time, without branches and
 /// calls, so that the compiler vectorizes it.
 struct RayPlaces {
@@ -90,12 +92,14 @@ RayWeigher::RayWeigher(std::shared_ptr<const DirectionTable> rays, const Pose2& 
       run_(run),
       unit_(-std::log(model.outliers) / kLargestCost),
       nats_(static_cast<float>(-unit_ * model.exponent)),
+      farCost_(quantize(std::log(model.maxRangeMass))),
       fit_(std::move(fit)) {
   const std::size_t padded = (run + kScanBlock - 1) / kScanBlock * kScanBlock;
   levels_.assign(padded, 0);
   if (!isSpread()) parts_.assign(padded, 0);
   caps_.assign(padded, 0);
   levelsPerSigma_.assign(run, 0.0);
+  beams_.reserve(run);
 }
 
 void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
@@ -103,12 +107,13 @@ void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
     levels_[at] = scale.level(range);
   else
     parts_[at] = partsOf(scale, range);
-  caps_[at] = std::isinf(range) ? quantize(std::log(model_.maxRangeMass)) : kLargestCost;
+  caps_[at] = std::isinf(range) ? farCost_ : kLargestCost;
   floorCost_ += caps_[at];
   const double known = std::min(range, scale.maxRange());
-  const double sigma = std::hypot(model_.sigmaAt(known), spread_.metres, spread_.radians * known);
+  const double sigma = std::sqrt(square(model_.sigmaAt(known)) + square(spread_.metres) +
+                                 square(spread_.radians * known));
   const double levels = scale.levelsPerSigma(known, sigma);
-  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::hypot(levels, kRoundingOfLevels);
+  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::sqrt(square(levels) + square(kRoundingOfLevels));
   scale_ = scale;
   beams_.push_back({at, range});
 }

@@ -82,6 +82,7 @@ class RayWeigher final : public BlurrableWeigher, public Polishable, public Trac
   std::vector<std::uint8_t> steps_;  ///< none: all of 1
   int shift_ = 0;
   std::array<std::uint8_t, kLevelDifferences> costs_{};
+  std::uint8_t farCost_;  ///< greatest cost of a beam that met nothing
   SurfaceFit fit_;
   std::optional<ScanTrace> trace_;
   std::uint32_t floorCost_ = 0;  ///< cost of a sample without expectation

@@ -43,6 +43,26 @@ Turns decompose(const Pose2& change) {
   return {backwards, -way, wrapAngle(change.theta - backwards)};
 }
 
+/// Sigmas of a change's noise.
+struct Sigmas {
+  double first;
+  double way;
+  double second;
+  double sideways;
+};
+
+Sigmas sigmasOf(const OdometryNoise& noise, const Turns& turns) {
+  const double turning = std::abs(turns.first) + std::abs(turns.second);
+  const double turnByWay =
+      0.5 * square(noise.turnPerMetre) * std::abs(turns.way);  // each turn gets half
+  return {std::sqrt(square(noise.turnPerTurn) * std::abs(turns.first) + turnByWay),
+          std::sqrt(square(noise.wayPerMetre) * std::abs(turns.way) +
+                    square(noise.wayPerTurn) * turning + square(noise.floorMetres)),
+          std::sqrt(square(noise.turnPerTurn) * std::abs(turns.second) + turnByWay +
+                    square(noise.floorRadians)),
+          noise.floorMetres};
+}
+
 /// One step's motion and its noise, in single precision.
 struct Step {
   float turn1;
@@ -81,12 +101,42 @@ OdometryNoise readNoise(const Parameters& motion) {
   return OdometryNoise::read(motion);
 }
 
+/// Returns the number of samples of which one slips.
+std::uint64_t periodOf(double share) {
+  return static_cast<std::uint64_t>(std::lround(1.0 / share));
+}
+
 /// Enlarges the noise of a share of the samples, evenly picked.
 void slip(double share, std::uint64_t first, std::size_t n, Noise& noise) {
   if (share <= 0.0) return;
-  const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
+  const std::uint64_t period = periodOf(share);
   for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
     for (std::array<float, kBlock>& row : noise) row[i] *= kSlip;
+}
+
+/// Adds the first and second moments of what moves from the origin: E x, E y, then the products.
+/// A turn of variance v has E cos(a + turn) = exp(-v/2) cos a, and E turn cos(a + turn) = -v exp(-v/2)
+/// sin a; way, sideways and the turns are independent of each other.
+void addMoments(const Turns& turns, const Sigmas& sigmas, double factor, double share,
+                MotionChange& sum) {
+  const double v = square(factor * sigmas.first);
+  const double shorter = std::exp(-0.5 * v);
+  const double doubled = square(square(shorter));
+  const double along = shorter * std::cos(turns.first);
+  const double across = shorter * std::sin(turns.first);
+  const double way2 = square(turns.way) + square(factor * sigmas.way);
+  const double sideways2 = square(factor * sigmas.sideways);
+  const double even = 0.5 * (way2 + sideways2);
+  const double odd = 0.5 * doubled * (way2 - sideways2);
+  const double cosine = odd * std::cos(2.0 * turns.first);
+  sum.mean.x += share * turns.way * along;
+  sum.mean.y += share * turns.way * across;
+  sum.covariance[0] += share * (even + cosine);
+  sum.covariance[1] += share * odd * std::sin(2.0 * turns.first);
+  sum.covariance[2] -= share * turns.way * v * across;
+  sum.covariance[4] += share * (even - cosine);
+  sum.covariance[5] += share * turns.way * v * along;
+  sum.covariance[8] += share * (v + square(factor * sigmas.second));
 }
 
 /// Returns the sigma of a learned variance, or @p old if nothing was learned. A drive that is too
@@ -218,28 +268,34 @@ Parameters OdometryMotion::settings() const {
   return p;
 }
 
+MotionChange expectedChange(const OdometryNoise& noise, const OdometryCorrection& correction,
+                            const Pose2& odometryChange) {
+  const Turns turns = decompose(correction.apply(odometryChange));
+  const Sigmas sigmas = sigmasOf(noise, turns);
+  const double slips =
+      noise.slipShare <= 0.0 ? 0.0 : 1.0 / static_cast<double>(periodOf(noise.slipShare));
+  MotionChange change;
+  addMoments(turns, sigmas, 1.0, 1.0 - slips, change);
+  if (slips > 0.0) addMoments(turns, sigmas, static_cast<double>(kSlip), slips, change);
+  change.mean.theta = wrapAngle(turns.first + turns.second);
+  PoseCovariance& c = change.covariance;
+  c[0] = std::max(0.0, c[0] - square(change.mean.x));  // by rounding
+  c[1] = c[3] = c[1] - change.mean.x * change.mean.y;
+  c[4] = std::max(0.0, c[4] - square(change.mean.y));
+  c[6] = c[2];
+  c[7] = c[5];
+  return change;
+}
+
 void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& odometryChange,
                                   std::uint64_t seed, std::uint64_t stream,
                                   std::uint64_t first) const {
   const Turns turns = decompose(correction_.apply(odometryChange));
-  const double turning = std::abs(turns.first) + std::abs(turns.second);
-  const double turnByWay =
-      0.5 * square(noise_.turnPerMetre) * std::abs(turns.way);  // each turn gets half
-  const auto sigmaFirst =
-      static_cast<float>(std::sqrt(square(noise_.turnPerTurn) * std::abs(turns.first) + turnByWay));
-  const auto sigmaSecond =
-      static_cast<float>(std::sqrt(square(noise_.turnPerTurn) * std::abs(turns.second) + turnByWay +
-                                   square(noise_.floorRadians)));
-  const auto sigmaWay = static_cast<float>(
-      std::sqrt(square(noise_.wayPerMetre) * std::abs(turns.way) +
-                square(noise_.wayPerTurn) * turning + square(noise_.floorMetres)));
-  const Step step{static_cast<float>(turns.first),
-                  static_cast<float>(turns.way),
-                  static_cast<float>(turns.second),
-                  sigmaFirst,
-                  sigmaWay,
-                  sigmaSecond,
-                  static_cast<float>(noise_.floorMetres)};
+  const Sigmas sigmas = sigmasOf(noise_, turns);
+  const Step step{static_cast<float>(turns.first),   static_cast<float>(turns.way),
+                  static_cast<float>(turns.second),  static_cast<float>(sigmas.first),
+                  static_cast<float>(sigmas.way),    static_cast<float>(sigmas.second),
+                  static_cast<float>(sigmas.sideways)};
   Noise noise;
   for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, samples.x.size() - begin);

@@ -1,5 +1,6 @@
 #include "CheckedMotion.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -15,6 +16,12 @@ bool areFinite(std::span<const float> values) {
     bad |=
         static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent);
   return bad == 0;
+}
+
+bool areMoments(const MotionChange& change) {
+  return isFinite(change.mean) &&
+         std::ranges::all_of(change.covariance, [](double value) { return std::isfinite(value); }) &&
+         change.covariance[0] >= 0.0 && change.covariance[4] >= 0.0 && change.covariance[8] >= 0.0;
 }
 
 }  // namespace
@@ -51,6 +58,13 @@ void CheckedMotion::sampleMotion(const MovableSamples& samples, const Pose2& odo
          [&] { model_->sampleMotion(samples, odometryChange, seed, stream, first); });
   if (!areFinite(samples.x) || !areFinite(samples.y) || !areFinite(samples.theta))
     guard_.fail("sampleMotion", "samples are not finite any more");
+}
+
+std::optional<MotionChange> CheckedMotion::moments(const Pose2& odometryChange) const {
+  const auto change = guard_("moments", [&] { return momentsOf(*model_, odometryChange); });
+  if (change && !areMoments(*change))
+    guard_.fail("moments", "they are not finite, or a variance is negative");
+  return change;
 }
 
 void CheckedMotion::learnMotion(const Pose2& odometryChange, const Pose2& trueChange) {

@@ -5,12 +5,13 @@
 
 #include "ortung/core/PluginGuard.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 
 namespace ortung {
 
 /// A motion model as MCL and its learner call it: what it throws, and samples that are not finite
 /// any more, are a PluginFailure that names it.
-class CheckedMotion final : public MotionModel {
+class CheckedMotion final : public MotionModel, public MotionMoments {
  public:
   CheckedMotion(std::unique_ptr<MotionModel> model, const std::string& plugin);
   ~CheckedMotion() override;
@@ -20,6 +21,7 @@ class CheckedMotion final : public MotionModel {
   void forget() override;
   void sampleMotion(const MovableSamples& samples, const Pose2& odometryChange, std::uint64_t seed,
                     std::uint64_t stream, std::uint64_t first) const override;
+  std::optional<MotionChange> moments(const Pose2& odometryChange) const override;
   void learnMotion(const Pose2& odometryChange, const Pose2& trueChange) override;
   void endDrive() override;
   double endLearning() override;

@@ -65,6 +65,7 @@ struct SumMoments {
 
 MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::size_t samples,
                       std::uint64_t seed, std::uint64_t stream) {
+  if (const auto known = momentsOf(motion, odometryChange)) return *known;
   std::array<std::vector<float>, 3> drawn;
   for (std::vector<float>& axis : drawn) axis.assign(samples, 0.0F);
   motion.sampleMotion({drawn[0], drawn[1], drawn[2]}, odometryChange, seed, stream, 0);

@@ -7,17 +7,12 @@
 #include "ortung/base/PoseCovariance.hpp"
 #include "ortung/mcl/PoseEstimate.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 
 namespace ortung {
 
-/// Mean and covariance of a change of pose, in the robot's frame before it.
-struct MotionChange {
-  Pose2 mean;
-  PoseCovariance covariance{};
-};
-
-/// Returns the change of pose that a motion model predicts from odometry's change, estimated from
-/// this many samples.
+/// Returns the change of pose that a motion model predicts from odometry's change: in closed form
+/// if it knows its moments, else estimated from this many samples.
 MotionChange changeOf(const MotionModel& motion, const Pose2& odometryChange, std::size_t samples,
                       std::uint64_t seed, std::uint64_t stream);
 /// The same from as many samples as a prediction takes; without motion there is no change.

@@ -38,9 +38,10 @@ std::array<Pose2, Delays::kCount> Lateness::placesAt(Timestamp stamp, const Pose
   const std::optional<Pose2>& then = belief_.odometry[inForce_];
   if (!now || !belief_.before || !then) return places;
   // With another delay the displacement since the last reading is longer or shorter.
+  const Pose2 before = inForce * inverse(*now) * *then;
   for (std::size_t i = 0; i < Delays::kCount; ++i)
     if (i != inForce_ && belief_.odometry[i] && probability(i) >= kNegligible) {
-      const Pose2 place = inForce * inverse(*now) * *then * inverse(*belief_.odometry[i]) * *now;
+      const Pose2 place = before * inverse(*belief_.odometry[i]) * *now;
       if (distance(place, inForce) < kFarthest) places[i] = place;
     }
   return places;

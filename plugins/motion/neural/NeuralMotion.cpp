@@ -1,6 +1,7 @@
 #include "NeuralSettings.hpp"
 #include "ortung/core/Plugin.hpp"
 #include "ortung/formats/Words.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
@@ -20,7 +21,7 @@ Parameters withoutNetwork(const Parameters& motion) {
 
 /// Odometry by a network, which predicts how the base executes commands. Commands come with
 /// odometry's readings; the noise is that of the odometry model.
-class NeuralMotion : public OdometryMotion {
+class NeuralMotion final : public OdometryMotion, public MotionMoments {
  public:
   explicit NeuralMotion(const Parameters& motion)
       : OdometryMotion(withoutNetwork(motion)),
@@ -50,6 +51,10 @@ class NeuralMotion : public OdometryMotion {
   }
 
   void forget() override { track_.clear(); }
+
+  std::optional<MotionChange> moments(const Pose2& odometryChange) const override {
+    return expectedChange(noise(), correction(), odometryChange);
+  }
 
  private:
   /// Restarts the prediction. The pose continues from its last value, so that samples do not jump.

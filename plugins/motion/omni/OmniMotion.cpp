@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
+#include "ortung/base/Angles.hpp"
 #include "ortung/base/FastMath.hpp"
+#include "ortung/base/PoseCovariance.hpp"
 #include "ortung/base/Random.hpp"
 #include "ortung/core/Plugin.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 #include "ortung/motion/OdometryMotion.hpp"
 
 namespace ortung {
@@ -20,31 +24,31 @@ constexpr float kSlip = 4.0F;
 
 double square(double value) { return value * value; }
 
+/// Returns the number of samples of which one slips.
+std::uint64_t periodOf(double share) {
+  return static_cast<std::uint64_t>(std::lround(1.0 / share));
+}
+
 /// Enlarges the noise of a share of the samples, evenly spaced in the set.
 void slip(double share, std::uint64_t first, std::size_t n, std::span<float> noise) {
   if (share <= 0.0) return;
-  const auto period = static_cast<std::uint64_t>(std::lround(1.0 / share));
+  const std::uint64_t period = periodOf(share);
   for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
     for (float& number : noise.subspan(i * kNumbersASample, kNumbersASample)) number *= kSlip;
 }
 
 /// The motion model of a robot that moves in any direction: noise does not depend on its heading.
 /// Variances are proportional to distance and turn, so readings may come at any rate.
-class OmniMotion : public OdometryMotion {
+class OmniMotion final : public OdometryMotion, public MotionMoments {
  public:
   using OdometryMotion::OdometryMotion;
 
   void sampleMotion(const MovableSamples& samples, const Pose2& odometryChange, std::uint64_t seed,
                     std::uint64_t stream, std::uint64_t first) const override {
     const Pose2 change = correction().apply(odometryChange);
-    const double way = std::hypot(change.x, change.y);
-    const double turn = std::abs(change.theta);
-    const auto sigmaWay = static_cast<float>(std::sqrt(square(noise().wayPerMetre) * way +
-                                                       square(noise().wayPerTurn) * turn +
-                                                       square(noise().floorMetres)));
-    const auto sigmaTurn = static_cast<float>(std::sqrt(square(noise().turnPerMetre) * way +
-                                                        square(noise().turnPerTurn) * turn +
-                                                        square(noise().floorRadians)));
+    const Sigmas sigmas = sigmasOf(change);
+    const auto sigmaWay = static_cast<float>(sigmas.way);
+    const auto sigmaTurn = static_cast<float>(sigmas.turn);
     const auto x = static_cast<float>(change.x);
     const auto y = static_cast<float>(change.y);
     const auto theta = static_cast<float>(change.theta);
@@ -64,6 +68,33 @@ class OmniMotion : public OdometryMotion {
         samples.theta[begin + i] += theta + sigmaTurn * numbers[2];
       }
     }
+  }
+
+  std::optional<MotionChange> moments(const Pose2& odometryChange) const override {
+    const Pose2 change = correction().apply(odometryChange);
+    const Sigmas sigmas = sigmasOf(change);
+    const double slips = noise().slipShare <= 0.0
+                             ? 0.0
+                             : 1.0 / static_cast<double>(periodOf(noise().slipShare));
+    const double more = 1.0 + slips * (square(static_cast<double>(kSlip)) - 1.0);
+    const double way = more * square(sigmas.way);
+    return MotionChange{{change.x, change.y, wrapAngle(change.theta)},
+                        independent(way, way, more * square(sigmas.turn))};
+  }
+
+ private:
+  struct Sigmas {
+    double way;
+    double turn;
+  };
+
+  Sigmas sigmasOf(const Pose2& change) const {
+    const double way = std::hypot(change.x, change.y);
+    const double turn = std::abs(change.theta);
+    return {std::sqrt(square(noise().wayPerMetre) * way + square(noise().wayPerTurn) * turn +
+                      square(noise().floorMetres)),
+            std::sqrt(square(noise().turnPerMetre) * way + square(noise().turnPerTurn) * turn +
+                      square(noise().floorRadians))};
   }
 };
 

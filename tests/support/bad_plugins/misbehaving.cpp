@@ -11,6 +11,7 @@
 #include "ortung/formats/ScalarData.hpp"
 #include "ortung/formats/Words.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 #include "ortung/sim_api/Drive.hpp"
 #include "ortung/sim_api/Player.hpp"
 #include "ortung/sim_api/Sensor.hpp"
@@ -157,7 +158,7 @@ class BadExtractor : public Extractor {
   mutable Mischief mischief_;
 };
 
-class BadMotion : public MotionModel {
+class BadMotion : public MotionModel, public MotionMoments {
  public:
   explicit BadMotion(const Parameters& p) : mischief_(p) {}
   void follow(Timestamp stamp, const OdometryView& reading) override {
@@ -174,6 +175,11 @@ class BadMotion : public MotionModel {
     for (float& x : samples.x) x += static_cast<float>(change.x);
     if (!samples.x.empty())
       samples.x.back() = static_cast<float>(mischief_.at("sampleMotion", samples.x.back()));
+  }
+  std::optional<MotionChange> moments(const Pose2& change) const override {
+    MotionChange its{change, {}};
+    its.covariance[4] = mischief_.at("moments", 0.0);
+    return its;
   }
   double endLearning() override { return mischief_.at("endLearning", -1.0); }
 

@@ -4,6 +4,7 @@
 
 #include "ortung/base/Parameters.hpp"
 #include "ortung/motion/MotionModel.hpp"
+#include "ortung/motion/MotionMoments.hpp"
 
 namespace ortung {
 
@@ -43,6 +44,13 @@ struct OdometryCorrection {
   /// Reads the keys of [motion]. @throws ConfigError
   ORTUNG_API static OdometryCorrection read(const Parameters& motion);
 };
+
+/// Returns mean and covariance of what OdometryMotion::sampleMotion() makes of a change. Turns don't
+/// wrap: those of large noise have a variance of more than half a turn.
+/// @param odometryChange motion in the robot's old frame
+ORTUNG_API MotionChange expectedChange(const OdometryNoise& noise,
+                                       const OdometryCorrection& correction,
+                                       const Pose2& odometryChange);
 
 /// The motion model of turn, distance, turn: it fits all robots that drive where they face, and
 /// serves others, too.
