@@ -66,9 +66,17 @@ void FloorSeeker::goTo(const std::string& floor, Localization& localization,
 
 void FloorSeeker::onEstimate(Localization& localization) {
   if (sought_.empty()) return;
+  const PoseEstimate here = localization.mcl().estimate();
+  std::optional<PoseEstimate> place = placeOn(sought_, localization);
+  if (!place && here.status == TrackStatus::kLost) return;
   const std::string floor = std::exchange(sought_, "");
-  const auto place = placeOn(floor, localization);
-  if (!place || isSettledOn(floor, localization)) return;
+  if (isSettledOn(floor, localization)) return;
+  if (!place) {
+    const auto carried = floors_.carried(here.pose, buildingOf(localization), floor);
+    if (!carried) return;
+    place = here;
+    place->pose = *carried;
+  }
   try {
     localization.setPose(place->pose, place->covariance);
   } catch (const std::invalid_argument&) {
