@@ -122,8 +122,8 @@ TEST_P(TurnedOrigin, GivesTheTurnedPosesWithTheSameError) {
     const auto after = turned[figure].get<double>();
     RecordProperty(std::string(figure) + "_straight", std::to_string(before));
     RecordProperty(std::string(figure) + "_turned", std::to_string(after));
-    // Cells of tables lie elsewhere in the turned map: as far as another seed.
-    EXPECT_NEAR(after, before, 0.01) << figure;
+    // Cells of tables, of 0.1 m, lie elsewhere in the turned map.
+    EXPECT_NEAR(after, before, 0.013) << figure;
   }
   EXPECT_EQ(turned["lost_share"].get<double>(), 0.0);
   const Pose origin = originOf(kData / GetParam() / "map.yaml");
