@@ -63,9 +63,9 @@ Off offOf(const MotionModel& motion, const Pose2& change, const Pose2& mean, std
 std::string drawnSettings(Random& random) {
   const auto some = [&](double most) { return random.uniform() < 0.2 ? 0.0 : most * random.uniform(); };
   std::ostringstream toml;
-  toml << "turn_per_turn = " << some(0.3) << "\nturn_per_m = " << some(0.4)
+  toml << "turn_per_turn = " << some(0.1) << "\nturn_per_m = " << some(0.2)
        << "\nway_per_m = " << some(0.2) << "\nway_per_turn = " << some(0.1)
-       << "\nfloor_m = " << some(0.05) << "\nfloor_deg = " << some(3.0)
+       << "\nfloor_m = " << some(0.05) << "\nfloor_deg = " << some(1.0)
        << "\nslip_share = " << some(0.3) << "\nway_scale = " << 0.8 + 0.4 * random.uniform()
        << "\nturn_scale = " << 0.8 + 0.4 * random.uniform()
        << "\nturn_bias_deg_per_m = " << some(10.0) << "\nway_bias_m_per_rad = " << some(0.1) << '\n';
@@ -112,6 +112,12 @@ TEST_F(Moments, WithoutNoiseAreTheChangeAlone) {
     for (const std::size_t k : {0u, 4u, 8u}) EXPECT_GE(its->covariance[k], 0.0);
     for (const double value : its->covariance) EXPECT_NEAR(value, 0.0, 1e-15);
   }
+}
+
+TEST_F(Moments, AreNotToldWhereTurnsMayWrap) {
+  const OdometryMotion motion(OdometryNoise{0, 0.1, 0, 0, 0, 0});  // sigma is 0.1 sqrt(m) rad
+  EXPECT_TRUE(momentsOf(motion, {24.9, 0, 0}).has_value());
+  EXPECT_FALSE(momentsOf(motion, {25.1, 0, 0}).has_value());
 }
 
 /// Moves samples in another way than the class that it derives from.

@@ -74,11 +74,12 @@ Slope slopeOf(const std::vector<const Polishable*>& readings, const Pose2& pose)
 /// Returns the maximum a posteriori of the readings and the prior, by iteration from @p start.
 /// @param slope derivative of the readings at @p start
 /// @param isOver ends the iteration, the first step of which takes next to no time
+/// @param mostSteps number of steps at most
 std::optional<Solution> agreement(const std::vector<const Polishable*>& readings,
                                   const Prior& prior, const Pose2& start, const Slope& slope,
-                                  const IsOver& isOver) {
+                                  const IsOver& isOver, int mostSteps = kMostSteps) {
   Solution found{start, {}, slope, start};
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < mostSteps; ++step) {
     if (step > 0 && isNow(isOver)) break;
     if (step > 0) found.slope = slopeOf(readings, found.pose);
     found.slopeAt = found.pose;
@@ -129,11 +130,13 @@ bool explains(const PoseEstimate& predicted, const Solution& solution, double ti
   return pull.dot(apart) < kOutlier * kOutlier;
 }
 
-/// Returns the pose by the readings alone, which determine one.
+/// Returns the pose by the readings alone, which determine one. It is by a fraction of the prior's
+/// sigma away from the solution, so the derivatives there lead to it in one step.
 std::optional<PoseEstimate> aloneOf(const std::vector<const Polishable*>& readings,
                                     const Solution& near, const IsOver& isOver) {
+  constexpr int kOneStep = 1;
   const auto solution =
-      agreement(readings, {near.pose, Matrix::Zero()}, near.slopeAt, near.slope, isOver);
+      agreement(readings, {near.pose, Matrix::Zero()}, near.slopeAt, near.slope, isOver, kOneStep);
   if (!solution) return std::nullopt;
   PoseEstimate alone;
   alone.pose = solution->pose;
