@@ -21,8 +21,8 @@ class FloorSeeker {
   /// @param start where it begins
   void goTo(const std::string& floor, Localization& localization,
             const std::optional<Message>& odometry, const LocalizationStart& start);
-  /// Once there is an estimate, takes the likeliest place on a floor that was named before or, if the
-  /// belief has none there, the same place as on the floor where it is.
+  /// Once there is an estimate, takes the likeliest place on a floor that was named before or, if
+  /// the belief has none there, the same place as on the floor where it is.
   void onEstimate(Localization& localization);
   /// Names a floor of another building, where the robot has yet to be found; "": none.
   void seek(const std::string& floor) { sought_ = floor; }

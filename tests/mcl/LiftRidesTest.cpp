@@ -55,7 +55,8 @@ TEST(LiftRides, ComeToAllStopsAlike) {
   Poses poses(kMany, {3.5, 3.0, 0.2});
   EXPECT_TRUE(LiftRides(region).ride(poses.movable(), 100.0 * kSeconds, Random(1, 2)));
   for (std::size_t floor = 0; floor < 3; ++floor)
-    EXPECT_NEAR(static_cast<double>(poses.onFloor(region.building, floor)), kMany / 3.0, 400.0) << floor;
+    EXPECT_NEAR(static_cast<double>(poses.onFloor(region.building, floor)), kMany / 3.0, 400.0)
+        << floor;
   EXPECT_EQ(poses.onFloor(region.building, 3), 0u);
 }
 
@@ -108,7 +109,8 @@ TEST(LiftRides, MayBeAnywhereIfNobodyHasToldOfLifts) {
   Poses poses(kMany, {5.5, 3.5, 0.2});
   EXPECT_TRUE(rides.ride(poses.movable(), 100.0 * kSeconds, Random(1, 2)));
   for (std::size_t floor = 0; floor < 4; ++floor)
-    EXPECT_NEAR(static_cast<double>(poses.onFloor(region.building, floor)), kMany / 4.0, 250.0) << floor;
+    EXPECT_NEAR(static_cast<double>(poses.onFloor(region.building, floor)), kMany / 4.0, 250.0)
+        << floor;
   for (std::size_t i = 0; i < kMany; ++i) {
     EXPECT_NEAR(std::fmod(poses.x[i], 20.0F), 5.5F, 1e-4);
     EXPECT_EQ(poses.y[i], 3.5F);

@@ -61,14 +61,17 @@ Off offOf(const MotionModel& motion, const Pose2& change, const Pose2& mean, std
 
 /// Settings of noise and correction, drawn; each may be 0.
 std::string drawnSettings(Random& random) {
-  const auto some = [&](double most) { return random.uniform() < 0.2 ? 0.0 : most * random.uniform(); };
+  const auto some = [&](double most) {
+    return random.uniform() < 0.2 ? 0.0 : most * random.uniform();
+  };
   std::ostringstream toml;
   toml << "turn_per_turn = " << some(0.1) << "\nturn_per_m = " << some(0.2)
        << "\nway_per_m = " << some(0.2) << "\nway_per_turn = " << some(0.1)
        << "\nfloor_m = " << some(0.05) << "\nfloor_deg = " << some(1.0)
        << "\nslip_share = " << some(0.3) << "\nway_scale = " << 0.8 + 0.4 * random.uniform()
        << "\nturn_scale = " << 0.8 + 0.4 * random.uniform()
-       << "\nturn_bias_deg_per_m = " << some(10.0) << "\nway_bias_m_per_rad = " << some(0.1) << '\n';
+       << "\nturn_bias_deg_per_m = " << some(10.0) << "\nway_bias_m_per_rad = " << some(0.1)
+       << '\n';
   return toml.str();
 }
 
@@ -89,7 +92,8 @@ TEST_F(Moments, AreThoseOfSamplesForEachPlugin) {
       ASSERT_TRUE(its.has_value());
       const Off off = offOf(*motion, change, its->mean, static_cast<std::uint64_t>(round));
       // 96 means and 192 products are compared; floats are off by some 1e-8.
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(off.mean[k], 0.0, 5 * off.meanError[k] + 1e-7);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(off.mean[k], 0.0, 5 * off.meanError[k] + 1e-7);
       for (std::size_t k = 0; k < 9; ++k)
         EXPECT_NEAR(off.product[k], its->covariance[k], 5 * off.productError[k] + 1e-8) << k;
       for (std::size_t row = 0; row < 3; ++row)

@@ -29,8 +29,8 @@ class FloorSeekers : public ::testing::Test {
                       folder_ / "robot.toml", "--out", folder_ / "t.ortung"});
     ASSERT_EQ(learned.exitCode, 0) << learned.err;
     world_ = readWorld(folder_ / "building.toml");
-    localization_.emplace(LocalizationConfig{.robot = folder_ / "robot.toml",
-                                             .tables = folder_ / "t.ortung"});
+    localization_.emplace(
+        LocalizationConfig{.robot = folder_ / "robot.toml", .tables = folder_ / "t.ortung"});
     robot_.emplace(*world_, 1);
     robot_->standAt(kFloor, {8.0, DrawnBuilding::kCorridor, 0.0});
     floors_.enter(building());

@@ -113,7 +113,8 @@ void RayWeigher::add(std::size_t at, double range, const RangeScale& scale) {
   const double sigma = std::sqrt(square(model_.sigmaAt(known)) + square(spread_.metres) +
                                  square(spread_.radians * known));
   const double levels = scale.levelsPerSigma(known, sigma);
-  levelsPerSigma_[at] = isSpread() ? levels : kPartsALevel * std::sqrt(square(levels) + square(kRoundingOfLevels));
+  levelsPerSigma_[at] =
+      isSpread() ? levels : kPartsALevel * std::sqrt(square(levels) + square(kRoundingOfLevels));
   scale_ = scale;
   beams_.push_back({at, range});
 }

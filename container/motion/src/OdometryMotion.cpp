@@ -115,8 +115,8 @@ void slip(double share, std::uint64_t first, std::size_t n, Noise& noise) {
 }
 
 /// Adds the first and second moments of what moves from the origin: E x, E y, then the products.
-/// A turn of variance v has E cos(a + turn) = exp(-v/2) cos a, and E turn cos(a + turn) = -v exp(-v/2)
-/// sin a; way, sideways and the turns are independent of each other.
+/// A turn of variance v has E cos(a + turn) = exp(-v/2) cos a, and E turn cos(a + turn) = -v
+/// exp(-v/2) sin a; way, sideways and the turns are independent of each other.
 void addMoments(const Turns& turns, const Sigmas& sigmas, double factor, double share,
                 MotionChange& sum) {
   const double v = square(factor * sigmas.first);
@@ -292,9 +292,9 @@ void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& od
                                   std::uint64_t first) const {
   const Turns turns = decompose(correction_.apply(odometryChange));
   const Sigmas sigmas = sigmasOf(noise_, turns);
-  const Step step{static_cast<float>(turns.first),   static_cast<float>(turns.way),
-                  static_cast<float>(turns.second),  static_cast<float>(sigmas.first),
-                  static_cast<float>(sigmas.way),    static_cast<float>(sigmas.second),
+  const Step step{static_cast<float>(turns.first),    static_cast<float>(turns.way),
+                  static_cast<float>(turns.second),   static_cast<float>(sigmas.first),
+                  static_cast<float>(sigmas.way),     static_cast<float>(sigmas.second),
                   static_cast<float>(sigmas.sideways)};
   Noise noise;
   for (std::size_t begin = 0; begin < samples.x.size(); begin += kBlock) {

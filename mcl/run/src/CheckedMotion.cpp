@@ -20,7 +20,8 @@ bool areFinite(std::span<const float> values) {
 
 bool areMoments(const MotionChange& change) {
   return isFinite(change.mean) &&
-         std::ranges::all_of(change.covariance, [](double value) { return std::isfinite(value); }) &&
+         std::ranges::all_of(change.covariance,
+                             [](double value) { return std::isfinite(value); }) &&
          change.covariance[0] >= 0.0 && change.covariance[4] >= 0.0 && change.covariance[8] >= 0.0;
 }
 

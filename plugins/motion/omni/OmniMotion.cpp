@@ -73,9 +73,8 @@ class OmniMotion final : public OdometryMotion, public MotionMoments {
   std::optional<MotionChange> moments(const Pose2& odometryChange) const override {
     const Pose2 change = correction().apply(odometryChange);
     const Sigmas sigmas = sigmasOf(change);
-    const double slips = noise().slipShare <= 0.0
-                             ? 0.0
-                             : 1.0 / static_cast<double>(periodOf(noise().slipShare));
+    const double slips =
+        noise().slipShare <= 0.0 ? 0.0 : 1.0 / static_cast<double>(periodOf(noise().slipShare));
     const double more = 1.0 + slips * (square(static_cast<double>(kSlip)) - 1.0);
     const double way = more * square(sigmas.way);
     return MotionChange{{change.x, change.y, wrapAngle(change.theta)},

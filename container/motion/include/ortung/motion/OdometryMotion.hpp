@@ -45,8 +45,8 @@ struct OdometryCorrection {
   ORTUNG_API static OdometryCorrection read(const Parameters& motion);
 };
 
-/// Returns mean and covariance of what OdometryMotion::sampleMotion() makes of a change. Turns don't
-/// wrap: those of large noise have a variance of more than half a turn.
+/// Returns mean and covariance of what OdometryMotion::sampleMotion() makes of a change. Turns
+/// don't wrap: those of large noise have a variance of more than half a turn.
 /// @param odometryChange motion in the robot's old frame
 ORTUNG_API MotionChange expectedChange(const OdometryNoise& noise,
                                        const OdometryCorrection& correction,
