@@ -12,8 +12,8 @@ namespace ortung::tuning {
 /// CarriedOn: an estimate between two updates.
 namespace carried {
 
-/// Number of samples of the motion model that give its mean and covariance. Cost: the mean is off
-/// by a thirtieth of the noise's sigma, and a prediction takes microseconds.
+/// Number of samples of a motion model that give its mean and covariance if it does not know them.
+/// Cost: the mean is off by a thirtieth of the noise's sigma, and a prediction takes microseconds.
 ORTUNG_CONSTANT(carried, kCopies, std::size_t{1024});
 
 }  // namespace carried
