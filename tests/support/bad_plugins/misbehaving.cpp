@@ -51,7 +51,7 @@ class Mischief {
 };
 
 DeviceData makeData(const Parameters& p) {
-  Mischief{p};
+  [[maybe_unused]] const Mischief asked(p);  // its settings are known and checked
   DeviceData data;
   data.push_back(std::make_unique<PoseData>(SensorId{"bad", "misbehaving", "pose"}));
   return data;
@@ -74,7 +74,7 @@ class BadSensor : public Sensor {
 };
 
 DeviceData makeRange(const Parameters& p) {
-  Mischief{p};
+  [[maybe_unused]] const Mischief asked(p);  // its settings are known and checked
   DeviceData data;
   data.push_back(std::make_unique<ScalarData>(SensorId{"bad", "misbehaving", "range"}, Pose2{},
                                               ScalarData::Config{}));
@@ -136,7 +136,7 @@ class BadDrive : public Drive {
 };
 
 DeviceData makeExtracted(const Parameters& p) {
-  Mischief{p};
+  [[maybe_unused]] const Mischief asked(p);  // its settings are known and checked
   DeviceData data;
   data.push_back(std::make_unique<PoseData>(SensorId{"bad", "extracted", "pose"}));
   return data;
