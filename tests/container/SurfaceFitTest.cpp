@@ -100,6 +100,46 @@ TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
   }
 }
 
+/// A wall as robots' maps have it, each cell of it in one of the two rows around x = @p x.
+std::shared_ptr<const SurfaceField> roughWall(double x, std::mt19937& random) {
+  constexpr double kCell = 0.05;
+  FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+  region.surfaceSigma = 0.025;
+  auto field = std::make_shared<SurfaceField>();
+  field->start(region, kCell, 0.1);
+  std::uniform_int_distribution<int> row(0, 1);
+  for (double y = -1.9; y <= 1.9; y += kCell) {
+    const double at = x + (row(random) - 0.5) * kCell;
+    for (double side = 0.0; side < kCell; side += 0.003) field->mark(at, y + side);
+  }
+  field->finish();
+  return field;
+}
+
+// The wall is as probably in the row behind as in the one before. If beams showed the first row
+// that they cross, poses would be too far from the wall, here by 6 mm.
+TEST(SurfaceFit, AWallInTwoRowsOfCellsIsBetweenThem) {
+  constexpr double kWall = 1.0, kNoise = 0.02;
+  constexpr int kWalls = 40;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  double sum = 0.0;
+  for (int wall = 0; wall < kWalls; ++wall) {
+    SurfaceFit fit(roughWall(kWall, random), Pose2{}, SensorModel{.sigma = 0.05});
+    for (int k = -90; k <= 90; ++k) {
+      const double bearing = k * 0.008;
+      fit.add(kWall / std::cos(bearing) + noise(random), bearing);
+    }
+    double x = 0.0;
+    for (int step = 0; step < 20; ++step) {
+      const Slope slope = fit.slopeAt({x, 0.0, 0.0});
+      x += slope.pull[0] / slope.information[0];
+    }
+    sum += x;
+  }
+  EXPECT_NEAR(sum / kWalls, 0.0, 0.004);
+}
+
 struct Residual {
   double off;  ///< [m]
   double sigma;
@@ -151,7 +191,7 @@ struct SeenBeam {
 };
 
 /// The surface that a beam from @p at shows: walked back from its end, the first one that it
-/// crosses, else that at its end.
+/// crosses well before those behind it, else that at its end.
 const Surface* naivelyShown(const SurfaceField& field, const Pose2& at, double range) {
   const double cell = field.grid().cell;
   const double c = std::cos(at.theta);
@@ -169,7 +209,12 @@ const Surface* naivelyShown(const SurfaceField& field, const Pose2& at, double r
     const double dx = static_cast<double>(other->x) - at.x;
     const double dy = static_cast<double>(other->y) - at.y;
     const double crossed = (nx * dx + ny * dy) / slant;
-    if (crossed < range && std::hypot(crossed * c - dx, crossed * s - dy) < cell) shown = other;
+    const double behind = nx * static_cast<double>(shown->x - other->x) +
+                          ny * static_cast<double>(shown->y - other->y);
+    const bool isApart = std::copysign(behind, behind * slant) >
+                         2.5 * static_cast<double>(std::hypot(shown->across, other->across));
+    if (isApart && crossed < range && std::hypot(crossed * c - dx, crossed * s - dy) < cell)
+      shown = other;
   }
   return shown;
 }

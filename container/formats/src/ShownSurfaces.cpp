@@ -8,6 +8,10 @@ namespace {
 constexpr double kGrazes = 0.2;  ///< least sine between a beam and a line that it crosses
 /// Greatest distance between where a beam crosses a line and the mean of its cell's ends [cells].
 constexpr double kWithin = 1.0;
+/// Least distance between a line that is crossed and the surface near the end, in standard
+/// deviations of both. Robots' maps have one wall in several rows of cells, the foremost of which
+/// is no better than the others. From 1.5 to 3, errors on ten logs differ by less than 1 mm.
+constexpr double kApart = 2.5;
 
 /// A grid as loops over places need it.
 struct GridFrame {
@@ -40,7 +44,7 @@ struct BeamCells {
   }
 };
 
-/// Lets beams show the surfaces whose lines they cross before they end.
+/// Lets beams show the surfaces whose lines they cross well before those that they showed so far.
 struct CrossedSurfaces {
   /// @param before numbers of the surfaces @param shown numbers so far, which change
   ORTUNG_INLINE static void run(const BeamRows* beams, const Surface* surfaces, double within,
@@ -51,6 +55,7 @@ struct CrossedSurfaces {
       const double c = beams->c[i];
       const double s = beams->s[i];
       const Surface& surface = surfaces[before[i] < 0 ? 0 : before[i]];
+      const Surface& last = surfaces[shown[i] < 0 ? 0 : shown[i]];
       const auto nx = static_cast<double>(surface.normalX);
       const auto ny = static_cast<double>(surface.normalY);
       const double dx = static_cast<double>(surface.x) - x;
@@ -61,10 +66,16 @@ struct CrossedSurfaces {
       const double range = nx * dx + ny * dy;
       const double offX = range * c - dx * slant;
       const double offY = range * s - dy * slant;
+      const double behind = nx * static_cast<double>(last.x - surface.x) +
+                            ny * static_cast<double>(last.y - surface.y);
+      const auto blur =
+          static_cast<double>(surface.across * surface.across + last.across * last.across);
       const int crosses = static_cast<int>(surface.along < 0.0F) &
                           static_cast<int>(squared >= kGrazes * kGrazes) &
                           static_cast<int>(range * slant < beams->range[i] * squared) &
                           static_cast<int>(offX * offX + offY * offY < within * within * squared) &
+                          static_cast<int>(behind * slant > 0.0) &
+                          static_cast<int>(behind * behind > kApart * kApart * blur) &
                           static_cast<int>(before[i] >= 0);
       shown[i] = crosses != 0 ? before[i] : shown[i];
     }

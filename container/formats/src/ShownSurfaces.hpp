@@ -10,8 +10,8 @@
 namespace ortung {
 
 /// Finds the surface that each beam shows. This is the one nearest to the beam's end but where the
-/// beam would have to cross another one before: noise moves ends through thin walls, and the far
-/// side of a wall is no place where a beam ends.
+/// beam would have to cross another one well before: noise moves ends through thin walls, and the
+/// far side of a wall is no place where a beam ends.
 class ShownSurfaces {
  public:
   /// @param surfaces borrowed, not empty
