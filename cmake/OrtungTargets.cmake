@@ -1,4 +1,5 @@
 # One way to make a library, one way to make a plugin. Folders use nothing else.
+include(${CMAKE_CURRENT_LIST_DIR}/OrtungAbi.cmake)
 
 if(PROJECT_IS_TOP_LEVEL)
   find_program(ORTUNG_CCACHE ccache)
@@ -154,25 +155,6 @@ function(ortung_pkg_config name public private)
   list(TRANSFORM libraries PREPEND "-l" REGEX "^[^-]")
   list(JOIN libraries " " libraries)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/ortung.pc.in ${PROJECT_BINARY_DIR}/pkgconfig/ortung-${name}.pc @ONLY)
-endfunction()
-
-# Writes <ortung/NAME/Abi.hpp>: a fingerprint of the public headers. It is part of every
-# interface name, so a plugin built from other headers is refused without anybody
-# having to remember a version number.
-function(ortung_abi_tag name)
-  foreach(header IN LISTS ARGN)
-    file(SHA256 ${CMAKE_CURRENT_SOURCE_DIR}/${header} hash)
-    string(APPEND all ${hash})
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
-  endforeach()
-  string(SHA256 tag "${all}")
-  string(SUBSTRING ${tag} 0 8 tag)
-  string(TOUPPER ${name} upper)
-  set(dir ${CMAKE_CURRENT_BINARY_DIR}/include)
-  file(CONFIGURE OUTPUT ${dir}/ortung/${name}/Abi.hpp @ONLY
-    CONTENT "#pragma once\n#define ORTUNG_@upper@_ABI \"@PROJECT_VERSION@-@tag@\"\n")
-  target_sources(ortung_${name} PUBLIC FILE_SET abi TYPE HEADERS BASE_DIRS ${dir}
-                 FILES ${dir}/ortung/${name}/Abi.hpp)
 endfunction()
 
 # ortung_plugin(lrf_data SOURCES x.cpp LINK ortung::container [PLUGINS other_plugin])

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t kBlock = 256;         ///< samples whose noise is drawn at once
 constexpr std::size_t kNumbersASample = 4;  ///< first turn, distance, second turn, sideways
-constexpr float kSlip = 4.0F;               ///< factor of the noise of samples that slip
 constexpr double kMostSlip = 0.2;           ///< greatest share of slip that is learned
 constexpr double kSmallestSigma = 0.005;    ///< least sigma that is learned
 constexpr double kMostWayBias = 0.5;        ///< greatest bias, as a share of the distance travelled
@@ -101,19 +100,6 @@ OdometryNoise readNoise(const Parameters& motion) {
   return OdometryNoise::read(motion);
 }
 
-/// Returns the number of samples of which one slips.
-std::uint64_t periodOf(double share) {
-  return static_cast<std::uint64_t>(std::lround(1.0 / share));
-}
-
-/// Enlarges the noise of a share of the samples, evenly picked.
-void slip(double share, std::uint64_t first, std::size_t n, Noise& noise) {
-  if (share <= 0.0) return;
-  const std::uint64_t period = periodOf(share);
-  for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
-    for (std::array<float, kBlock>& row : noise) row[i] *= kSlip;
-}
-
 /// Adds the first and second moments of what moves from the origin: E x, E y, then the products.
 /// A turn of variance v has E cos(a + turn) = exp(-v/2) cos a, and E turn cos(a + turn) = -v
 /// exp(-v/2) sin a; way, sideways and the turns are independent of each other.
@@ -161,6 +147,16 @@ void OdometryNoise::check() const {
   }
   if (!(slipShare >= 0.0 && slipShare <= 0.5))
     throw std::invalid_argument("odometry noise: the share that slips must be in [0, 0.5]");
+}
+
+std::uint64_t OdometryNoise::slipPeriod() const {
+  constexpr double kLeast = 1e-9;  // fewer never happen
+  return slipShare < kLeast ? 0 : static_cast<std::uint64_t>(std::lround(1.0 / slipShare));
+}
+
+double OdometryNoise::slips() const {
+  const std::uint64_t period = slipPeriod();
+  return period == 0 ? 0.0 : 1.0 / static_cast<double>(period);
 }
 
 OdometryNoise OdometryNoise::read(const Parameters& p) {
@@ -272,11 +268,11 @@ MotionChange expectedChange(const OdometryNoise& noise, const OdometryCorrection
                             const Pose2& odometryChange) {
   const Turns turns = decompose(correction.apply(odometryChange));
   const Sigmas sigmas = sigmasOf(noise, turns);
-  const double slips =
-      noise.slipShare <= 0.0 ? 0.0 : 1.0 / static_cast<double>(periodOf(noise.slipShare));
+  const double slips = noise.slips();
   MotionChange change;
   addMoments(turns, sigmas, 1.0, 1.0 - slips, change);
-  if (slips > 0.0) addMoments(turns, sigmas, static_cast<double>(kSlip), slips, change);
+  if (slips > 0.0)
+    addMoments(turns, sigmas, static_cast<double>(OdometryNoise::kSlip), slips, change);
   change.mean.theta = wrapAngle(turns.first + turns.second);
   PoseCovariance& c = change.covariance;
   c[0] = std::max(0.0, c[0] - square(change.mean.x));  // by rounding
@@ -301,7 +297,9 @@ void OdometryMotion::sampleMotion(const MovableSamples& samples, const Pose2& od
     const std::size_t count = std::min(kBlock, samples.x.size() - begin);
     const auto row = [&](std::size_t k) { return std::span(noise[k]).first(count); };
     fillGaussianRows(seed, stream, first + begin, {row(0), row(1), row(2), row(3)});
-    slip(noise_.slipShare, first + begin, count, noise);
+    noise_.forEachSlip(first + begin, count, [&](std::size_t i) {
+      for (std::array<float, kBlock>& numbers : noise) numbers[i] *= OdometryNoise::kSlip;
+    });
     runWidest<MoveAll, Step, const Noise*>(step, &noise, count, samples.x.data() + begin,
                                            samples.y.data() + begin, samples.theta.data() + begin);
   }

@@ -19,23 +19,7 @@ constexpr std::size_t kBlock = 256;  ///< number of samples whose noise is drawn
 /// Numbers per sample: x, y, theta, unused (fillGaussian works on pairs).
 constexpr std::size_t kNumbersASample = 4;
 
-/// Factor of the noise of slipping samples, see OdometryNoise::slipShare.
-constexpr float kSlip = 4.0F;
-
 double square(double value) { return value * value; }
-
-/// Returns the number of samples of which one slips.
-std::uint64_t periodOf(double share) {
-  return static_cast<std::uint64_t>(std::lround(1.0 / share));
-}
-
-/// Enlarges the noise of a share of the samples, evenly spaced in the set.
-void slip(double share, std::uint64_t first, std::size_t n, std::span<float> noise) {
-  if (share <= 0.0) return;
-  const std::uint64_t period = periodOf(share);
-  for (std::uint64_t i = (period - first % period) % period; i < n; i += period)
-    for (float& number : noise.subspan(i * kNumbersASample, kNumbersASample)) number *= kSlip;
-}
 
 /// The motion model of a robot that moves in any direction: noise does not depend on its heading.
 /// Variances are proportional to distance and turn, so readings may come at any rate.
@@ -57,7 +41,10 @@ class OmniMotion final : public OdometryMotion, public MotionMoments {
       const std::size_t count = std::min(kBlock, samples.x.size() - begin);
       fillGaussian(seed, stream, (first + begin) * kNumbersASample,
                    std::span(noise).first(count * kNumbersASample));
-      slip(this->noise().slipShare, first + begin, count, noise);
+      this->noise().forEachSlip(first + begin, count, [&](std::size_t i) {
+        for (float& number : std::span(noise).subspan(i * kNumbersASample, kNumbersASample))
+          number *= OdometryNoise::kSlip;
+      });
       for (std::size_t i = 0; i < count; ++i) {
         const float* numbers = noise.data() + i * kNumbersASample;
         const float along = x + sigmaWay * numbers[0];
@@ -73,9 +60,8 @@ class OmniMotion final : public OdometryMotion, public MotionMoments {
   std::optional<MotionChange> moments(const Pose2& odometryChange) const override {
     const Pose2 change = correction().apply(odometryChange);
     const Sigmas sigmas = sigmasOf(change);
-    const double slips =
-        noise().slipShare <= 0.0 ? 0.0 : 1.0 / static_cast<double>(periodOf(noise().slipShare));
-    const double more = 1.0 + slips * (square(static_cast<double>(kSlip)) - 1.0);
+    const double more =
+        1.0 + noise().slips() * (square(static_cast<double>(OdometryNoise::kSlip)) - 1.0);
     const double way = more * square(sigmas.way);
     return MotionChange{{change.x, change.y, wrapAngle(change.theta)},
                         independent(way, way, more * square(sigmas.turn))};

@@ -28,8 +28,9 @@ class ORTUNG_API MotionMoments {
   virtual std::optional<MotionChange> moments(const Pose2& odometryChange) const = 0;
 };
 
-/// Returns the moments of a model that has MotionMoments or is an OdometryMotion itself, else
-/// nothing. @param odometryChange motion in the robot's old frame
+/// Returns the moments of a model that has MotionMoments or is an OdometryMotion itself. Nothing
+/// for others, and where headings are so unsure that samples' may wrap.
+/// @param odometryChange motion in the robot's old frame
 ORTUNG_API std::optional<MotionChange> momentsOf(const MotionModel& motion,
                                                  const Pose2& odometryChange);
 

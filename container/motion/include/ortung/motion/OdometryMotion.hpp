@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "ortung/base/Parameters.hpp"
@@ -22,11 +24,28 @@ struct OdometryNoise {          // standard deviations
   /// `slip_share`: share of samples whose noise is four times as large, in [0, 0.5], for wheels
   /// that slip and bases that are held: errors of real robots have longer tails than Gaussians.
   double slipShare = 0.0;
+  static constexpr float kSlip = 4.0F;  ///< factor of the noise of samples that slip
+
+  /// Returns the share of samples that slip: one of a whole number of them, or 0.
+  ORTUNG_API double slips() const;
+  /// Calls @p enlarge with the index of each sample that slips, evenly picked.
+  /// @param first index of the first of these samples in its set
+  /// @param n number of samples
+  template <typename Enlarge>
+  void forEachSlip(std::uint64_t first, std::size_t n, Enlarge enlarge) const {
+    const std::uint64_t period = slipPeriod();
+    if (period == 0) return;
+    for (std::uint64_t i = (period - first % period) % period; i < n; i += period) enlarge(i);
+  }
 
   /// @throws std::invalid_argument if a value is out of its range
   ORTUNG_API void check() const;
   /// Reads [motion] of a robot file, which may hold nothing else. @throws ConfigError
   ORTUNG_API static OdometryNoise read(const Parameters& motion);
+
+ private:
+  /// Returns the number of samples of which one slips, 0 if none does.
+  ORTUNG_API std::uint64_t slipPeriod() const;
 };
 
 /// The systematic error of odometry.

@@ -1,0 +1,20 @@
+# cmake -DOUT=FOLDER -P abi_hash.cmake  the fingerprint of public headers changes with what they declare, and with nothing else.
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/OrtungAbi.cmake)
+
+function(hash_of out text)
+  file(WRITE ${OUT}/Header.hpp "${text}")
+  ortung_abi_hash(hash ${OUT}/Header.hpp)
+  set(${out} ${hash} PARENT_SCOPE)
+endfunction()
+
+hash_of(before "/// Measures; in [m].\nstruct A {\n  int a = 1; ///< [m]\n  double b[2];\n};\n")
+hash_of(same "/// Says more, and\n/// longer.\nstruct A { // here\n    int a = 1;\n  double\n    b[2];\n};")
+if(NOT before STREQUAL same)
+  message(SEND_ERROR "comments and layout change the fingerprint of a header: ${before}, ${same}")
+endif()
+foreach(other "int a = 2;\n  double b[2]" "int a = 1;\n  double b[3]" "long a = 1;\n  double b[2]" "double b[2];\n  int a = 1" "int a = 1")
+  hash_of(after "struct A {\n  ${other};\n};\n")
+  if(before STREQUAL after)
+    message(SEND_ERROR "'${other}' has the fingerprint of another declaration: ${before}")
+  endif()
+endforeach()
