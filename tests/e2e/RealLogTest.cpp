@@ -116,6 +116,39 @@ INSTANTIATE_TEST_SUITE_P(RealLog, HardLog, testing::Values("fhw", "freiburg-079"
                            return std::string(one.param) == "fhw" ? "Visitors" : "LyingOdometry";
                          });
 
+struct Exactness {
+  const char* log;
+  double rmse;  ///< at updates, from a known start; a sixth above what is measured [m]
+};
+
+/// Logs whose maps have walls in several rows of cells, and which cost a third of the exactness
+/// when beams were compared with the foremost of them.
+class ExactLog : public testing::TestWithParam<Exactness> {};
+
+TEST_P(ExactLog, IsTrackedWithinCentimetres) {
+  const std::string log = kData + "/" + GetParam().log;
+  if (!isHere(log)) GTEST_SKIP() << log << " is not here; it belongs to no repository";
+  const Folder folder;
+  importAndLearn(log, folder);
+  const auto figures = folder.eval({"--source", "record:" + folder.path("run.rec"), "--robot",
+                                    folder.path("robot.toml"), "--tables",
+                                    folder.path("world.ortung"), "--start", "truth"});
+  EXPECT_LT(figures["at_corrections"]["position_rmse_m"].get<double>(), GetParam().rmse);
+  EXPECT_LT(figures["nees_mean"].get<double>(), 4.5);
+  EXPECT_EQ(figures["lost_share"].get<double>(), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(RealLog, ExactLog,
+                         testing::Values(Exactness{"mrpt_sena_telecom", 0.046},
+                                         Exactness{"mrpt_localization_demo", 0.034},
+                                         Exactness{"carmen/freiburg-101", 0.0355},
+                                         Exactness{"carmen/intel", 0.037}),
+                         [](const auto& one) {
+                           std::string name = std::filesystem::path(one.param.log).filename();
+                           std::erase_if(name, [](char c) { return c == '_' || c == '-'; });
+                           return name;
+                         });
+
 /// A laser in a building: 9 s, scans four times a second, truth by matching scans to the map.
 TEST(RealLog, LaserInABuildingIsTrackedFromAnUnknownStart) {
   const std::string log = kData + "/mrpt_localization_demo";
