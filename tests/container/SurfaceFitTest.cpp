@@ -71,32 +71,42 @@ TEST(SurfaceFit, SaysNothingOfAHeadingWhereNoSurfaceIsNear) {
   for (const double value : slope.information) EXPECT_EQ(value, 0.0);
 }
 
-// Noise moves ends to the far side of a thin wall, and a pose that is off by its thickness moves
-// all of them there. No beam gets there, so the wall's near side is what they show.
-TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
-  constexpr double kNear = 1.0, kFar = 1.15, kNoise = 0.04;
-  const FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+/// A wall of 0.15 m, both sides of which are known by @p surfaceSigma.
+std::shared_ptr<const SurfaceField> thinWall(double surfaceSigma) {
+  FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
+  region.surfaceSigma = surfaceSigma;
   auto field = std::make_shared<SurfaceField>();
   field->start(region, 0.05, 0.1);
   for (double y = -1.9; y <= 1.9; y += 0.003)
-    for (const double x : {kNear, kFar}) field->mark(x, y);
+    for (const double x : {1.0, 1.15}) field->mark(x, y);
   field->finish();
-  std::mt19937 random(4);
-  std::normal_distribution<double> noise(0.0, kNoise);
-  SurfaceFit fit(field, Pose2{}, SensorModel{.sigma = kNoise});
+  return field;
+}
+
+// Noise moves ends to the far side of a thin wall, and a pose that is off by its thickness moves
+// all of them there. No beam gets there, so the wall's near side is what they show.
+TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
+  constexpr double kNoise = 0.04;
   constexpr int kBeams = 181;
-  for (int k = 0; k < kBeams; ++k) {
-    const double bearing = (k - kBeams / 2) * 0.008;
-    fit.add(kNear / std::cos(bearing) + noise(random), bearing);
-  }
-  for (const double start : {0.0, 0.07, 0.15, -0.15}) {
-    double x = start;
-    for (int step = 0; step < 20; ++step) {
-      const Slope slope = fit.slopeAt({x, 0.0, 0.0});
-      ASSERT_GT(slope.information[0], 0.0);
-      x += slope.pull[0] / slope.information[0];
+  constexpr double kRobotsMap = 0.025;  // of cells of 0.05 m, and 0.02 m by which it is off [m]
+  for (const double surfaceSigma : {0.0, kRobotsMap}) {
+    std::mt19937 random(4);
+    std::normal_distribution<double> noise(0.0, kNoise);
+    SurfaceFit fit(thinWall(surfaceSigma), Pose2{}, SensorModel{.sigma = kNoise});
+    for (int k = 0; k < kBeams; ++k) {
+      const double bearing = (k - kBeams / 2) * 0.008;
+      fit.add(1.0 / std::cos(bearing) + noise(random), bearing);
     }
-    EXPECT_NEAR(x, 0.0, 4.0 * kNoise / std::sqrt(kBeams)) << "from " << start;
+    for (const double start : {0.0, 0.07, 0.15, -0.15}) {
+      double x = start;
+      for (int step = 0; step < 20; ++step) {
+        const Slope slope = fit.slopeAt({x, 0.0, 0.0});
+        ASSERT_GT(slope.information[0], 0.0);
+        x += slope.pull[0] / slope.information[0];
+      }
+      EXPECT_NEAR(x, 0.0, 4.0 * kNoise / std::sqrt(kBeams))
+          << "from " << start << " with surfaces of " << surfaceSigma;
+    }
   }
 }
 
