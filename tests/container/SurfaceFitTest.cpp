@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <random>
 #include <vector>
@@ -17,16 +18,50 @@ namespace ortung {
 namespace {
 
 constexpr double kSigma = 0.015;  // of the surfaces [m]
+constexpr int kBeams = 181;       // of a scan
 
-/// The wall x = 1, of which the world says no more than to 15 mm.
-std::shared_ptr<const SurfaceField> wall() {
+constexpr double kCell = 0.05;  // of their field [m]
+
+/// The surfaces of a room of 4 x 4 m. @param mark marks the ends of beams in a field
+template <class Mark>
+std::shared_ptr<const SurfaceField> surfacesOf(double surfaceSigma, const Mark& mark) {
   FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
-  region.surfaceSigma = kSigma;
+  region.surfaceSigma = surfaceSigma;
   auto field = std::make_shared<SurfaceField>();
-  field->start(region, 0.05, 0.1);
-  for (double y = -1.9; y <= 1.9; y += 0.003) field->mark(1.0, y);
+  field->start(region, kCell, 0.1);
+  mark(*field);
   field->finish();
   return field;
+}
+
+/// Walls at some x.
+std::shared_ptr<const SurfaceField> walls(double surfaceSigma, std::initializer_list<double> all) {
+  return surfacesOf(surfaceSigma, [&](SurfaceField& field) {
+    for (double y = -1.9; y <= 1.9; y += 0.003)
+      for (const double x : all) field.mark(x, y);
+  });
+}
+
+/// The wall x = 1, of which the world says no more than to 15 mm.
+std::shared_ptr<const SurfaceField> wall() { return walls(kSigma, {1.0}); }
+
+/// A scan of the wall x = 1 from the origin.
+void addScan(SurfaceFit& fit, double sigma, std::mt19937& random) {
+  std::normal_distribution<double> noise(0.0, sigma);
+  for (int k = 0; k < kBeams; ++k) {
+    const double bearing = (k - kBeams / 2) * 0.008;
+    fit.add(1.0 / std::cos(bearing) + noise(random), bearing);
+  }
+}
+
+/// The x at which steps from @p x on end, for a robot that looks along x.
+double settled(const SurfaceFit& fit, double x) {
+  for (int step = 0; step < 20; ++step) {
+    const Slope slope = fit.slopeAt({x, 0.0, 0.0});
+    EXPECT_GT(slope.information[0], 0.0);
+    x += slope.pull[0] / slope.information[0];
+  }
+  return x;
 }
 
 /// A scan from the origin of two places of the wall, @p off to the left and to the right.
@@ -50,12 +85,10 @@ TEST(SurfaceFit, IsBlurredByTheWallAtTheEndOfItsLever) {
 // distance.
 TEST(SurfaceFit, OfASpotTellsBothCoordinatesAndTheHeading) {
   constexpr double kX = 1.025, kY = 0.325;  // in the middle of a cell
-  const FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
-  auto field = std::make_shared<SurfaceField>();
-  field->start(region, 0.05, 0.1);
-  for (double angle = 0.0; angle < 6.28; angle += 0.05)
-    field->mark(kX + 0.01 * std::cos(angle), kY + 0.01 * std::sin(angle));
-  field->finish();
+  const auto field = surfacesOf(0.0, [](SurfaceField& spot) {
+    for (double angle = 0.0; angle < 6.28; angle += 0.05)
+      spot.mark(kX + 0.01 * std::cos(angle), kY + 0.01 * std::sin(angle));
+  });
   SurfaceFit fit(field, Pose2{}, SensorModel{.sigma = 0.02});
   fit.add(std::hypot(kX, kY), std::atan2(kY, kX));
   const auto i = fit.slopeAt({}).information;
@@ -71,81 +104,42 @@ TEST(SurfaceFit, SaysNothingOfAHeadingWhereNoSurfaceIsNear) {
   for (const double value : slope.information) EXPECT_EQ(value, 0.0);
 }
 
-/// A wall of 0.15 m, both sides of which are known by @p surfaceSigma.
-std::shared_ptr<const SurfaceField> thinWall(double surfaceSigma) {
-  FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
-  region.surfaceSigma = surfaceSigma;
-  auto field = std::make_shared<SurfaceField>();
-  field->start(region, 0.05, 0.1);
-  for (double y = -1.9; y <= 1.9; y += 0.003)
-    for (const double x : {1.0, 1.15}) field->mark(x, y);
-  field->finish();
-  return field;
-}
-
 // Noise moves ends to the far side of a thin wall, and a pose that is off by its thickness moves
 // all of them there. No beam gets there, so the wall's near side is what they show.
 TEST(SurfaceFit, NoBeamShowsTheFarSideOfAWall) {
   constexpr double kNoise = 0.04;
-  constexpr int kBeams = 181;
   constexpr double kRobotsMap = 0.025;  // of cells of 0.05 m, and 0.02 m by which it is off [m]
   for (const double surfaceSigma : {0.0, kRobotsMap}) {
     std::mt19937 random(4);
-    std::normal_distribution<double> noise(0.0, kNoise);
-    SurfaceFit fit(thinWall(surfaceSigma), Pose2{}, SensorModel{.sigma = kNoise});
-    for (int k = 0; k < kBeams; ++k) {
-      const double bearing = (k - kBeams / 2) * 0.008;
-      fit.add(1.0 / std::cos(bearing) + noise(random), bearing);
-    }
-    for (const double start : {0.0, 0.07, 0.15, -0.15}) {
-      double x = start;
-      for (int step = 0; step < 20; ++step) {
-        const Slope slope = fit.slopeAt({x, 0.0, 0.0});
-        ASSERT_GT(slope.information[0], 0.0);
-        x += slope.pull[0] / slope.information[0];
-      }
-      EXPECT_NEAR(x, 0.0, 4.0 * kNoise / std::sqrt(kBeams))
+    SurfaceFit fit(walls(surfaceSigma, {1.0, 1.15}), Pose2{}, SensorModel{.sigma = kNoise});
+    addScan(fit, kNoise, random);
+    for (const double start : {0.0, 0.07, 0.15, -0.15})
+      EXPECT_NEAR(settled(fit, start), 0.0, 4.0 * kNoise / std::sqrt(kBeams))
           << "from " << start << " with surfaces of " << surfaceSigma;
-    }
   }
 }
 
-/// A wall as robots' maps have it, each cell of it in one of the two rows around x = @p x.
-std::shared_ptr<const SurfaceField> roughWall(double x, std::mt19937& random) {
-  constexpr double kCell = 0.05;
-  FieldRegion region = test::Room{4, 4}.region(0.1, 0.2);
-  region.surfaceSigma = 0.025;
-  auto field = std::make_shared<SurfaceField>();
-  field->start(region, kCell, 0.1);
+/// A wall as robots' maps have it, each cell of it in one of the two rows around x = 1.
+std::shared_ptr<const SurfaceField> roughWall(std::mt19937& random) {
   std::uniform_int_distribution<int> row(0, 1);
-  for (double y = -1.9; y <= 1.9; y += kCell) {
-    const double at = x + (row(random) - 0.5) * kCell;
-    for (double side = 0.0; side < kCell; side += 0.003) field->mark(at, y + side);
-  }
-  field->finish();
-  return field;
+  return surfacesOf(0.025, [&](SurfaceField& field) {
+    for (double y = -1.9; y <= 1.9; y += kCell) {
+      const double x = 1.0 + (row(random) - 0.5) * kCell;
+      for (double side = 0.0; side < kCell; side += 0.003) field.mark(x, y + side);
+    }
+  });
 }
 
 // The wall is as probably in the row behind as in the one before. If beams showed the first row
 // that they cross, poses would be too far from the wall, here by 6 mm.
 TEST(SurfaceFit, AWallInTwoRowsOfCellsIsBetweenThem) {
-  constexpr double kWall = 1.0, kNoise = 0.02;
   constexpr int kWalls = 40;
   std::mt19937 random(7);
-  std::normal_distribution<double> noise(0.0, kNoise);
   double sum = 0.0;
   for (int wall = 0; wall < kWalls; ++wall) {
-    SurfaceFit fit(roughWall(kWall, random), Pose2{}, SensorModel{.sigma = 0.05});
-    for (int k = -90; k <= 90; ++k) {
-      const double bearing = k * 0.008;
-      fit.add(kWall / std::cos(bearing) + noise(random), bearing);
-    }
-    double x = 0.0;
-    for (int step = 0; step < 20; ++step) {
-      const Slope slope = fit.slopeAt({x, 0.0, 0.0});
-      x += slope.pull[0] / slope.information[0];
-    }
-    sum += x;
+    SurfaceFit fit(roughWall(random), Pose2{}, SensorModel{.sigma = 0.05});
+    addScan(fit, 0.02, random);
+    sum += settled(fit, 0.0);
   }
   EXPECT_NEAR(sum / kWalls, 0.0, 0.004);
 }
