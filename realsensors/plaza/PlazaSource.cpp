@@ -28,7 +28,7 @@ class PlazaSource : public LogSource {
  public:
   explicit PlazaSource(const Parameters& options)
       : path_(options.text("path")),
-        run_(options.textOr("run", "plaza1")),
+        run_(options.has("run") ? options.text("run") : onlyRun(path_, "_TL.txt", "run")),
         jitter_(optionNumber(options, "jitter_s", 1.0, {0.0, 3600.0})) {
     options.textOr("robot_file", "");
     readBeacons();
@@ -144,7 +144,7 @@ class PlazaHelp : public SourceHelp {
  public:
   explicit PlazaHelp(const Parameters&)
       : SourceHelp("folder with NAME_DR.txt, NAME_TD.txt, NAME_TL.txt",
-                   {{"run", "", "plaza1", "NAME, the beginning of the files' names"},
+                   {{"run", "", "the only one", "NAME, the beginning of the files' names"},
                     {"jitter_s", "s", "1", "how far stamps may fall back before it is an error"}}) {
   }
 };

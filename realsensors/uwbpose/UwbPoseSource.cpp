@@ -32,7 +32,7 @@ class UwbPoseSource : public LogSource {
  public:
   explicit UwbPoseSource(const Parameters& options)
       : folder_(options.text("path")),
-        run_(options.textOr("run", "mid")),
+        run_(options.has("run") ? options.text("run") : onlyRun(folder_, "_ranges.txt", "run")),
         bias_(optionNumber(options, "range_bias_m", 0.0, {-10.0, 10.0})),
         jitter_(optionNumber(options, "jitter_s", 1.0, {0.0, 3600.0})) {
     options.textOr("robot_file", "");
@@ -154,7 +154,7 @@ class UwbPoseHelp : public SourceHelp {
  public:
   explicit UwbPoseHelp(const Parameters&)
       : SourceHelp("folder with NAME_ranges.txt and README_source.md",
-                   {{"run", "", "mid", "NAME, the beginning of the files' names"},
+                   {{"run", "", "the only one", "NAME, the beginning of the files' names"},
                     {"range_bias_m", "m", "0", "bias that is subtracted from ranges"},
                     {"jitter_s", "s", "1", "how far stamps may fall back before it is an error"}}) {
   }

@@ -109,6 +109,32 @@ TEST_F(BeaconDamage, UwbPoseSaysWhichFileAndLineIsWrong) {
                 "name, expected one of them");
 }
 
+TEST_F(BeaconDamage, TheOnlyRunIsReadWhateverItIsCalled) {
+  for (const char* file : {"plaza1_TL.txt", "plaza1_DR.txt", "plaza1_TD.txt", "mid_ranges.txt"})
+    std::filesystem::remove(path(file));
+  EXPECT_EQ(errorOf("plaza:" + path()), path() + ": found no file NAME_TL.txt, expected one");
+  EXPECT_EQ(errorOf("uwbpose:" + path()), path() + ": found no file NAME_ranges.txt, expected one");
+  folder_.write("_TL.txt", "6 22 23.5\n");  // nobody's name
+  folder_.write("yard.7_TL.txt", "6 22 23.5\n");
+  folder_.write("yard.7_DR.txt", "1 0 0\n2 0.5 0\n");
+  folder_.write("yard.7_TD.txt", "2.5 2 6 20.25\n");
+  folder_.write("slow_ranges.txt", "1 4\n");
+  EXPECT_EQ(errorOf("plaza:" + path()), "");
+  EXPECT_EQ(errorOf("uwbpose:" + path()), "");
+}
+
+TEST_F(BeaconDamage, OfSeveralRunsOneMustBeNamed) {
+  folder_.write("plaza2_TL.txt.xz", "");
+  folder_.write("fast_ranges.txt.gz", "");
+  EXPECT_EQ(
+      errorOf("plaza:" + path()),
+      path() + ": found the runs 'plaza1', 'plaza2', expected the option run to name one of them");
+  EXPECT_EQ(errorOf("plaza:" + path() + "?run=plaza1"), "");
+  EXPECT_EQ(errorOf("uwbpose:" + path()),
+            path() + ": found the runs 'fast', 'mid', expected the option run to name one of them");
+  EXPECT_EQ(errorOf("uwbpose:" + path() + "?run=mid"), "");
+}
+
 TEST_F(BeaconDamage, ALogWithoutAnyReadingIsNone) {
   folder_.write("mid_ranges.txt", "1 0\n2 nan\n");
   EXPECT_EQ(errorOf("uwbpose:" + path()), path() + ": found no reading, expected at least one");

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 
 #include "LogStream.hpp"
@@ -68,6 +69,27 @@ std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& pa
     if (std::filesystem::is_regular_file(candidate, error)) return candidate;
   }
   return std::nullopt;
+}
+
+std::string onlyRun(const std::filesystem::path& folder, std::string_view ending,
+                    std::string_view option) {
+  std::set<std::string> runs;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    std::filesystem::path file = entry.path().filename();
+    if (file.extension() == ".xz" || file.extension() == ".gz") file.replace_extension();
+    const std::string name = file.string();
+    if (name.size() <= ending.size() || !name.ends_with(ending)) continue;
+    runs.insert(name.substr(0, name.size() - ending.size()));
+  }
+  if (runs.size() == 1) return *runs.begin();
+  std::string names;
+  for (const std::string& run : runs) names += (names.empty() ? "" : ", ") + inQuotes(run);
+  const std::string file = "NAME" + std::string(ending);
+  throw std::runtime_error(folder.string() +
+                           (runs.empty() ? ": found no file " + file + ", expected one"
+                                         : ": found the runs " + names + ", expected the option " +
+                                               std::string(option) + " to name one of them"));
 }
 
 std::string readLogBytes(const std::filesystem::path& file, std::uint64_t maxBytes) {
