@@ -36,9 +36,14 @@ std::unique_ptr<Source> openSourceArgument(const SourceText& text,
 }
 
 bool unlessInterrupted(const Source& source, const std::function<bool()>& next) {
-  const auto isEnd = [&] { return interruptSignal() != 0 && source.isLive(); };
+  const bool isLive = source.isLive();
+  // The signal is looked at once, since it may come between two looks.
+  const auto isEnd = [isLive] {
+    if (interruptSignal() == 0) return false;
+    if (!isLive) throw Interrupted();
+    return true;
+  };
   if (isEnd()) return false;
-  checkInterrupt();
   try {
     return next();
   } catch (const std::exception&) {  // a signal interrupts waiting, for which sources throw
