@@ -28,7 +28,7 @@ class PlazaSource : public LogSource {
  public:
   explicit PlazaSource(const Parameters& options)
       : path_(options.text("path")),
-        run_(options.has("run") ? options.text("run") : onlyRun(path_, "_TL.txt", "run")),
+        run_(runOf(options, path_, "_TL.txt")),
         jitter_(optionNumber(options, "jitter_s", 1.0, {0.0, 3600.0})) {
     options.textOr("robot_file", "");
     readBeacons();

@@ -32,7 +32,7 @@ class UwbPoseSource : public LogSource {
  public:
   explicit UwbPoseSource(const Parameters& options)
       : folder_(options.text("path")),
-        run_(options.has("run") ? options.text("run") : onlyRun(folder_, "_ranges.txt", "run")),
+        run_(runOf(options, folder_, "_ranges.txt")),
         bias_(optionNumber(options, "range_bias_m", 0.0, {-10.0, 10.0})),
         jitter_(optionNumber(options, "jitter_s", 1.0, {0.0, 3600.0})) {
     options.textOr("robot_file", "");

@@ -2,7 +2,6 @@
 """Of a build that was stopped, CI runs the tests whose programs are there, and names the others."""
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 

@@ -71,25 +71,29 @@ std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& pa
   return std::nullopt;
 }
 
-std::string onlyRun(const std::filesystem::path& folder, std::string_view ending,
-                    std::string_view option) {
+std::string unpackedName(const std::filesystem::path& file) {
+  const bool isPacked = file.extension() == ".xz" || file.extension() == ".gz";
+  return (isPacked ? file.stem() : file.filename()).string();
+}
+
+std::string runOf(const Parameters& options, const std::filesystem::path& folder,
+                  std::string_view ending) {
+  if (options.has("run")) return options.text("run");
   std::set<std::string> runs;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    std::filesystem::path file = entry.path().filename();
-    if (file.extension() == ".xz" || file.extension() == ".gz") file.replace_extension();
-    const std::string name = file.string();
+    const std::string name = unpackedName(entry.path());
     if (name.size() <= ending.size() || !name.ends_with(ending)) continue;
     runs.insert(name.substr(0, name.size() - ending.size()));
   }
   if (runs.size() == 1) return *runs.begin();
+  if (runs.empty())
+    throw std::runtime_error(folder.string() + ": found no file NAME" + std::string(ending) +
+                             ", expected one");
   std::string names;
   for (const std::string& run : runs) names += (names.empty() ? "" : ", ") + inQuotes(run);
-  const std::string file = "NAME" + std::string(ending);
-  throw std::runtime_error(folder.string() +
-                           (runs.empty() ? ": found no file " + file + ", expected one"
-                                         : ": found the runs " + names + ", expected the option " +
-                                               std::string(option) + " to name one of them"));
+  throw std::runtime_error(folder.string() + ": found the runs " + names +
+                           ", expected the option run to name one of them");
 }
 
 std::string readLogBytes(const std::filesystem::path& file, std::uint64_t maxBytes) {

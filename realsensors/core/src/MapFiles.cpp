@@ -86,9 +86,7 @@ void copyMapServer(const std::filesystem::path& world, const std::filesystem::pa
                                  " beside it, expected one");
       }
       image = *found;
-      auto plain = image;
-      if (plain.extension() == ".gz" || plain.extension() == ".xz") plain.replace_extension();
-      copy = beside(world, plain.extension().string());
+      copy = beside(world, std::filesystem::path(unpackedName(image)).extension().string());
       line = "image: " + copy.filename().string();
     }
     text += line + "\n";

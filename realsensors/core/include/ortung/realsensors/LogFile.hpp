@@ -28,12 +28,14 @@ ORTUNG_API bool isPlausible(const Pose2& pose);
 /// Returns @p path if there is such a file, or the same name with .xz or .gz appended, or nothing.
 ORTUNG_API std::optional<std::filesystem::path> findLogFile(const std::filesystem::path& path);
 
-/// Returns NAME of the only file NAME + @p ending in @p folder, which findLogFile() would find: the
-/// run that a folder holds, whatever it is called.
-/// @param option option that names the run, for the error if there are several
-/// @throws std::runtime_error if there is no such file, or more than one
-ORTUNG_API std::string onlyRun(const std::filesystem::path& folder, std::string_view ending,
-                               std::string_view option);
+/// Returns a file's name without an .xz or .gz at its end.
+ORTUNG_API std::string unpackedName(const std::filesystem::path& file);
+
+/// Returns which run of a folder is to be read: the option `run`, or else NAME of the only file
+/// NAME + @p ending there, which may be compressed.
+/// @throws std::runtime_error if the option is missing, and there is no such file or more than one
+ORTUNG_API std::string runOf(const Parameters& options, const std::filesystem::path& folder,
+                             std::string_view ending);
 
 /// Reads all bytes of a file, and decompresses them if its name ends in .xz or .gz.
 /// @throws std::runtime_error if it is missing, damaged or longer than @p maxBytes
