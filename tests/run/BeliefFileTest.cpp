@@ -4,6 +4,7 @@
 
 #include "RoomRun.hpp"
 #include "ortung/formats/PoseFixData.hpp"
+#include "ortung/formats/TrackData.hpp"
 #include "ortung/records/RecordWriter.hpp"
 #include "ortung/run/FoundChanges.hpp"
 #include "ortung/run/Published.hpp"
@@ -28,6 +29,33 @@ TEST_F(Told, APoseWithItsCovariance) {
     localization.update();
   }
   EXPECT_LT(distance(localization.mcl().estimate().pose, truth), 0.15);
+}
+
+// A robot or a world that stands may bring no reading for long.
+TEST_F(Told, IsPublishedWithoutWaitingForAReading) {
+  LocalizationConfig publishing = config();
+  publishing.publish = true;
+  Localization localization(publishing);
+  for (const auto& moment : moments) {
+    localization.container().set(std::span(moment).first(2));
+    localization.update();
+  }
+  const SensorContainer& container = localization.container();
+  const Timestamp now = moments.back()[0].stamp;
+  const Pose2 told{-0.5, 0.5, 1};
+  localization.setPose(told, {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4});
+  const auto poses = container.get<PoseFixData>({"mcl", "LOCALIZATION", "pose"});
+  ASSERT_TRUE(poses);
+  ASSERT_EQ(poses->size(), 1U);
+  EXPECT_LT(distance((*poses)[0].pose, told), 0.02);
+  EXPECT_NEAR((*poses)[0].pose.theta, told.theta, 0.02);
+  EXPECT_EQ(container.find({"mcl", "LOCALIZATION", "pose"})->stamp(), now);
+
+  localization.relocalize();
+  const auto status = container.get<TrackData>({"mcl", "LOCALIZATION", "status"});
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->reason, TrackReason::kSearching);
+  EXPECT_EQ(container.find({"mcl", "LOCALIZATION", "status"})->stamp(), now);
 }
 
 TEST_F(Told, APoseWhereItCantBeIsRefused) {

@@ -212,12 +212,14 @@ void Localization::setPose(const Pose2& pose, const PoseCovariance& covariance) 
   checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
   mcl_->setPose(pose, covariance);
   waitsForTruth_ = false;
+  publish(present());  // no reading may come that tells it: the world may stand
 }
 
 void Localization::relocalize() {
   requireMcl("relocalize");
   mcl_->relocalize();
   waitsForTruth_ = false;
+  publishChange();
 }
 
 void Localization::saveBelief(const std::filesystem::path& file) const {
@@ -271,16 +273,22 @@ std::optional<Message> Localization::newChanges(Timestamp stamp) {
   return message;
 }
 
-/// Publishes the status and what bounds the error if the status has changed without a new estimate.
-void Localization::publishChange() {
-  if (!publishes_ || odometry_ == nullptr || !(published_ || mcl_->isSearching())) return;
-  Timestamp now = 0;
-  {
+/// Returns the estimate at the time of the newest odometry; without any, of the newest weighing.
+PoseEstimate Localization::present() const {
+  Timestamp now = mcl_->estimate().stamp;
+  if (odometry_ != nullptr) {
     const SensorContainer::ReadLock lock = robot_->container.read();
-    now = odometry_->stamp();
+    if (odometry_->sequence() > 0) now = odometry_->stamp();
   }
   PoseEstimate estimate = mcl_->estimate(now).value_or(mcl_->estimate());  // the field is searched
   estimate.stamp = now;
+  return estimate;
+}
+
+/// Publishes the status and what bounds the error if the status has changed without a new estimate.
+void Localization::publishChange() {
+  if (!publishes_ || odometry_ == nullptr || !(published_ || mcl_->isSearching())) return;
+  const PoseEstimate estimate = present();
   const std::pair status(estimate.status, estimate.reason);
   if (status == published_) return;
   robot_->container.set(std::array{trackMessage(estimate), protectionMessage(estimate)});

@@ -203,10 +203,10 @@ void FilterThread::close(LocalizationState state) {
   state_ = std::move(state);
 }
 
+/// Orders are obeyed before, and tell what they change without waiting for readings.
 void FilterThread::localize(const std::deque<std::vector<Message>>& moments) {
-  if (moments.empty()) return;
   for (const std::vector<Message>& moment : moments) localization_->container().set(moment);
-  localization_->update();
+  if (!moments.empty()) localization_->update();
   set(stateOf(*localization_));
   publish();
 }

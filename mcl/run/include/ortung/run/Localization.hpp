@@ -139,7 +139,7 @@ class ORTUNG_API Localization {
 
   /// Sets the belief to a pose that the caller knows now; odometry carries it on and readings
   /// sharpen it. Unlike start() it keeps what is known of time and odometry, and does not wait for
-  /// a reading.
+  /// a reading: it is published at once.
   /// @param covariance may be singular
   /// @throws std::invalid_argument if that is no covariance, or as start(). The belief stays then
   void setPose(const Pose2& pose, const PoseCovariance& covariance);
@@ -197,6 +197,7 @@ class ORTUNG_API Localization {
   void startAt(const Pose2& pose);
   void searchMeanwhile(Timestamp since, Timestamp until);
   void count(double milliseconds);
+  PoseEstimate present() const;
   void publish(const PoseEstimate& estimate);
   void publishChange();
   std::optional<Message> newChanges(Timestamp stamp);
