@@ -57,7 +57,9 @@ class Deadline {
           std::unique_lock lock(mutex_);
           const auto isTold = [] { return interruptSignal() != 0; };
           while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
-          wake_.wait_for(lock, stop, kLongestEnd, [] { return false; });
+          // In slices: of time in which the whole program stood, at most one counts.
+          for (auto left = kLongestEnd / kLook; left > 0 && !stop.stop_requested(); --left)
+            wake_.wait_for(lock, stop, kLook, [] { return false; });
           if (stop.stop_requested()) return;
           board.abandon("the server ends, since its world does not end");
           std::thread(endSoon).detach();

@@ -131,7 +131,10 @@ std::string Program::waitForOutput(const std::string& text) {
   return outcome_.out;
 }
 
-void Program::signal(int number) const { kill(process_, number); }
+void Program::signal(int number) const {
+  kill(process_, number);
+  if (number == SIGSTOP) waitpid(process_, nullptr, WUNTRACED);
+}
 
 Outcome Program::finish() {
   while (readSome()) {

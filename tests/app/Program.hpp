@@ -32,7 +32,7 @@ class Program {
   bool waitForError(const std::string& text);
   /// The same for stdout; returns all of it so far.
   std::string waitForOutput(const std::string& text);
-  void signal(int number) const;
+  void signal(int number) const;  ///< after SIGSTOP it has stopped
   Outcome finish();
 
  private:

@@ -112,21 +112,25 @@ TEST(TcpSource, WithoutLockstepItFollowsAWorldThatGoesOnByItself) {
   BoardConfig config;
   config.speed = 20.0;
   const RunningBoard board(world, config);
-  const auto source =
-      open(board.port(), {{"lockstep", "off"}, {"cycle_ms", "5"}, {"duration", "1"}});
-  FrameReader reader(*source);  // refuses time that runs backwards
-  std::vector<Message> frame;
-  std::size_t readings = 0;
-  Timestamp last = 0;
-  while (reader.next(frame)) {
-    readings += frame.size();
-    last = frame.front().stamp;
+  {
+    const auto source = open(board.port(), {{"lockstep", "off"}, {"cycle_ms", "5"}});
+    FrameReader reader(*source);  // refuses time that runs backwards
+    std::vector<Message> frame;
+    std::size_t readings = 0;
+    // However many cycles a busy client misses, others come.
+    for (Timestamp last = 0; readings < 5 || last < 500'000; last = frame.front().stamp) {
+      ASSERT_TRUE(reader.next(frame));
+      readings += frame.size();
+    }
+    EXPECT_EQ(source->worldFingerprint(), readWorld(kWorld)->fingerprint());
+    EXPECT_EQ(source->robotToml(), readBytes(kRobot));
   }
-  EXPECT_GT(readings, 5u);
-  EXPECT_GT(last, 500'000);
-  EXPECT_NEAR(source->progress(), 1.0, 1e-9);
-  EXPECT_EQ(source->worldFingerprint(), readWorld(kWorld)->fingerprint());
-  EXPECT_EQ(source->robotToml(), readBytes(kRobot));
+  const auto brief =
+      open(board.port(), {{"lockstep", "off"}, {"cycle_ms", "5"}, {"duration", "1"}});
+  Message message;
+  while (brief->next(message)) {
+  }
+  EXPECT_NEAR(brief->progress(), 1.0, 1e-9);
 }
 
 TEST(TcpSource, WhereLockstepIsNotPermittedItFollowsUnlessItIsAskedFor) {
@@ -137,11 +141,9 @@ TEST(TcpSource, WhereLockstepIsNotPermittedItFollowsUnlessItIsAskedFor) {
   const std::string why =
       messageOf<ServerRefused>([&] { open(board.port(), {{"lockstep", "on"}}); });
   EXPECT_NE(why.find("LOCKSTEP makes all others wait"), std::string::npos) << why;
-  const auto source = open(board.port(), {{"cycle_ms", "5"}, {"duration", "0.5"}});
+  const auto source = open(board.port(), {{"cycle_ms", "5"}});
   Message message;
-  std::size_t readings = 0;
-  while (source->next(message)) ++readings;
-  EXPECT_GT(readings, 5u);
+  for (int readings = 0; readings < 5; ++readings) ASSERT_TRUE(source->next(message));
 }
 
 /// "auto" gives way to a server that does not permit it, and to nothing else.

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <latch>
+#include <optional>
 #include <thread>
 
 #include "Await.hpp"
 #include "LocalizedArena.hpp"
+#include "ortung/formats/OdometryData.hpp"
 #include "ortung/formats/PoseFixData.hpp"
 
 namespace ortung::test {
@@ -60,6 +62,49 @@ TEST(FilterThread, SaysWhyItHasFailedAndCanTryAgain) {
   EXPECT_NE(filter.perceiver(), nullptr);
   EXPECT_FALSE(filter.needs().empty());
   EXPECT_THROW(filter.order({OrderKind::kPlace, {50, 50, 0}}), std::invalid_argument);
+}
+
+/// The newest pose that the filter has published since it was asked last.
+std::optional<std::pair<Timestamp, Pose2>> published(FilterThread& filter) {
+  std::vector<Message> messages;
+  filter.takePublished(messages);
+  for (const Message& message : messages) {
+    if (message.id.feature != "pose") continue;
+    PoseFixData pose(message.id, {});
+    pose.setData(message.stamp, message.words);
+    return std::pair(message.stamp, pose.reading().at(0).pose);
+  }
+  return std::nullopt;
+}
+
+// A place is where the robot is when it is told, not where it was before what still waits.
+TEST(FilterThread, ObeysAnOrderAfterTheReadingsThatCameBeforeIt) {
+  const LocalizedArena arena;
+  FilterThread filter({arena.robotFile, arena.config().tables, 1});
+  filter.order({OrderKind::kPlace, {0.5, -1.5, 0.0}});
+  await(filter, Kind::kSearching);
+  const auto odometry = [&](int cycle) {
+    const double x = 0.02 * cycle;
+    return std::vector<Message>{{cycle * 33'000,
+                                 {"odometry", "odometry", "pose"},
+                                 OdometryData::encode({{x, 0.0, 0.0}, 0.6, 0.0, {}})}};
+  };
+  filter.take(odometry(0));
+  const Pose2 told{-0.5, -1.5, 0.0};
+  int cycle = 0;
+  for (int turn = 0; turn < 5; ++turn) {
+    for (int i = 0; i < 40; ++i) filter.take(odometry(++cycle));
+    filter.order({OrderKind::kPlace, told, 0.01, 0.01});
+    const Timestamp now = odometry(cycle)[0].stamp;
+    std::optional<std::pair<Timestamp, Pose2>> pose;
+    ASSERT_TRUE(comesTrue("the place is published",
+                          [&] {
+                            if (const auto newer = published(filter)) pose = newer;
+                            return pose && pose->first == now &&
+                                   distance(pose->second, told) < 0.05;
+                          }))
+        << (pose ? distance(pose->second, told) : -1.0) << " m beside it";
+  }
 }
 
 TEST(LearnedTables, AreLearnedOnceAndWhoWaitsForThemMayGiveUp) {

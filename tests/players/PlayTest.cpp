@@ -49,10 +49,10 @@ TEST(Play, EndsWithThePlayerAndItsRobotLeaves) {
 TEST(Play, InRealTimeItPlaysUntilASignal) {
   Program server({"sim", kMaps + "/fields/arena.toml", "--listen", "0"});
   const std::uint16_t port = portOf(server);
-  Program player({"play", "shy:name=anna", "--server", "127.0.0.1:" + std::to_string(port)},
-                 kPlugins);
   TestClient client(port);
   client.ask("HELLO ortung/1");
+  Program player({"play", "shy:name=anna", "--server", "127.0.0.1:" + std::to_string(port)},
+                 kPlugins);
   ASSERT_TRUE(comesTrue("there is a robot",
                         [&] { return client.ask("LIST robots") == "OK LIST lines=1"; }));
   EXPECT_EQ(client.line(), "robot=1 name=anna client=2");

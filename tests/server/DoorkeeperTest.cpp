@@ -93,12 +93,8 @@ TEST(Doorkeeper, AWrongTokenIsAnsweredLateAndHoldsUpNobodyElse) {
   TestClient guesser(board.port());
   guesser.send("HELLO ortung/1 token=guesttoken2\nHELLO ortung/1 token=guesttoken1\n");
   // While it waits, the others are answered: the server has nothing to do for it.
-  int answers = 0;
-  while (secondsSince(begin) < 0.2) {
-    EXPECT_TRUE(other.ask("TIME").starts_with("OK TIME"));
-    ++answers;
-  }
-  EXPECT_GE(answers, 1);
+  do EXPECT_TRUE(other.ask("TIME").starts_with("OK TIME"));
+  while (secondsSince(begin) < 0.2);
   EXPECT_EQ(guesser.line(), kWrong);
   EXPECT_GE(secondsSince(begin), 0.3);
   EXPECT_EQ(guesser.line(), "(closed)");

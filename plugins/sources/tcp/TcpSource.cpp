@@ -34,6 +34,7 @@ SessionOptions readOptions(const Parameters& p) {
   options.wanders = p.choiceOr("drive", "none", {"none", "wander"}) == "wander";
   options.isBinary = p.choiceOr("form", "binary", {"text", "binary"}) == "binary";
   options.patience = optionNumber(p, "timeout", options.patience, {0.1, 1e6});
+  if (p.has("timeout")) options.timeout = std::max(options.timeout, options.patience);
   if (const char* token = std::getenv("ORTUNG_TOKEN")) options.token = token;
   options.isInterruptible = true;
   try {

@@ -47,13 +47,13 @@ class Rehearsed : public Source {
   std::map<std::string, std::vector<std::vector<std::uint32_t>>> given_;
 };
 
-/// Faults: the cable is pulled for so many seconds, again and again, so that a computer that was
-/// too busy to open the device before the first time sees the next one. It stays plugged in for
-/// twice as long each time, for computers that take long to open it.
-inline std::vector<std::string> pulledAgainAndAgain(int seconds) {
+/// A fault for so many seconds, again and again: a computer that was too busy to see the first one,
+/// or to open the device before it, sees the next. It is well for twice as long each time, for
+/// computers that take long to open it.
+inline std::vector<std::string> againAndAgain(const std::string& fault, int seconds) {
   std::vector<std::string> faults;
-  for (int from = 1, plugged = 3; from < 60; from += seconds + plugged, plugged *= 2)
-    faults.push_back("unplug@" + std::to_string(from) + "-" + std::to_string(from + seconds));
+  for (int from = 1, well = 3; from < 60; from += seconds + well, well *= 2)
+    faults.push_back(fault + "@" + std::to_string(from) + "-" + std::to_string(from + seconds));
   return faults;
 }
 

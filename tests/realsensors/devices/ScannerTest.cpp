@@ -119,7 +119,7 @@ TEST_F(SickTest, MeasuresHalfDegreesInCentimetres) {
 
 TEST_F(SickTest, IsFoundAgainWhenItWasUnplugged) {
   put(geometry(181, -90, 1));
-  desk->add(std::make_unique<EmulatedSick>(*scan), line(), test::pulledAgainAndAgain(1));
+  desk->add(std::make_unique<EmulatedSick>(*scan), line(), test::againAndAgain("unplug", 1));
   desk->start(robot("beams = 181\nfov_deg = 180",
                     "plugin = 'sick_lms', port = '/dev/laser', baud = 38400"));
   desk->readUntil(0, [](const DeviceStatus& status) { return status.openings >= 2; });
@@ -199,7 +199,7 @@ TEST_F(HokuyoTest, MeasuresThroughMrptsDriverAtASocket) {
 
 TEST_F(HokuyoTest, IsFoundAgainWhenItWasUnplugged) {
   put(geometry(683, -119.8828125, 0.3515625));
-  desk->add(std::make_unique<EmulatedHokuyo>(*scan), line(), test::pulledAgainAndAgain(1));
+  desk->add(std::make_unique<EmulatedHokuyo>(*scan), line(), test::againAndAgain("unplug", 1));
   desk->start(robot(kUrg, "plugin = 'hokuyo', port = '/dev/laser'"));
   desk->readUntil(0, [](const DeviceStatus& status) { return status.openings >= 2; });
   expectAsGiven(desk->read(kScan, 5));

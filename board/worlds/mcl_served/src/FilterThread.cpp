@@ -52,13 +52,14 @@ void FilterThread::take(std::span<const Message> moment) {
   {
     const std::lock_guard lock(mutex_);
     if (!perceiver_) return;
-    std::vector<Message> needed;
+    Moment needed;
     for (const Message& message : moment)
       if (std::find(needs_.begin(), needs_.end(), message.id) != needs_.end())
         needed.push_back(message);
     if (needed.empty()) return;
-    if (inbox_.moments.size() == kMostMoments) inbox_.moments.pop_front();
-    inbox_.moments.push_back(std::move(needed));
+    if (inbox_.moments == kMostMoments) dropOldest();
+    inbox_.given.emplace_back(std::move(needed));
+    ++inbox_.moments;
   }
   news_.notify_one();
 }
@@ -77,7 +78,7 @@ void FilterThread::order(const LocalizationOrder& order) {
       state_ = {};
     else if (state_.kind == Kind::kOff || state_.kind == Kind::kFailed)
       state_ = {Kind::kLearning};
-    inbox_.orders.push_back(order);
+    inbox_.given.emplace_back(order);
   }
   news_.notify_one();
 }
@@ -85,7 +86,7 @@ void FilterThread::order(const LocalizationOrder& order) {
 void FilterThread::restart() {
   {
     const std::lock_guard lock(mutex_);
-    inbox_.moments.clear();
+    dropMoments();
     inbox_.isRestarted = true;
     published_.clear();
   }
@@ -96,6 +97,20 @@ void FilterThread::wantSamples(bool wanted) {
   const std::lock_guard lock(mutex_);
   wantsSamples_ = wanted;
   if (perceiver_) perceiver_->wantSamples(wanted);
+}
+
+/// @pre mutex_ is locked, and a time step waits
+void FilterThread::dropOldest() {
+  inbox_.given.erase(std::find_if(inbox_.given.begin(), inbox_.given.end(), [](const auto& one) {
+    return std::holds_alternative<Moment>(one);
+  }));
+  --inbox_.moments;
+}
+
+/// @pre mutex_ is locked
+void FilterThread::dropMoments() {
+  std::erase_if(inbox_.given, [](const auto& one) { return std::holds_alternative<Moment>(one); });
+  inbox_.moments = 0;
 }
 
 LocalizationState FilterThread::state() const {
@@ -127,14 +142,14 @@ void FilterThread::requestStop() { thread_.request_stop(); }
 void FilterThread::run(const std::stop_token& stop) {
   const Patience patience(Patience::kBeside);
   while (auto inbox = await(stop)) {
-    try {
-      if (inbox->isRestarted && localization_) open({});
-      for (const Order& order : inbox->orders) obey(order, stop);
-      if (localization_) localize(inbox->moments);
-    } catch (const std::exception& error) {
-      close({Kind::kFailed, 0.0, error.what()});
-    } catch (...) {  // plugins may throw anything
-      close({Kind::kFailed, 0.0, "it threw no std::exception"});
+    while (!inbox->isEmpty()) {
+      try {
+        take(*inbox, stop);
+      } catch (const std::exception& error) {
+        close({Kind::kFailed, 0.0, error.what()});
+      } catch (...) {  // plugins may throw anything
+        close({Kind::kFailed, 0.0, "it threw no std::exception"});
+      }
     }
   }
   isOver_ = true;
@@ -143,11 +158,27 @@ void FilterThread::run(const std::stop_token& stop) {
 /// What there is to do; nothing at the end.
 std::optional<FilterThread::Inbox> FilterThread::await(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  const bool hasNews = news_.wait(lock, stop, [this] {
-    return inbox_.isRestarted || !inbox_.orders.empty() || !inbox_.moments.empty();
-  });
+  const bool hasNews = news_.wait(lock, stop, [this] { return !inbox_.isEmpty(); });
   if (!hasNews || stop.stop_requested()) return std::nullopt;
   return std::exchange(inbox_, {});
+}
+
+void FilterThread::take(Inbox& inbox, const std::stop_token& stop) {
+  if (std::exchange(inbox.isRestarted, false) && localization_) open({});
+  bool hasReadings = false;
+  while (!inbox.given.empty()) {
+    const std::variant<Moment, Order> given = std::move(inbox.given.front());
+    inbox.given.pop_front();
+    if (const Order* order = std::get_if<Order>(&given)) {
+      localize(std::exchange(hasReadings, false));
+      obey(*order, stop);
+      localize(false);
+    } else if (localization_) {
+      localization_->container().set(std::get<Moment>(given));
+      hasReadings = true;
+    }
+  }
+  if (hasReadings) localize(true);
 }
 
 void FilterThread::obey(const Order& order, const std::stop_token& stop) {
@@ -184,12 +215,12 @@ void FilterThread::open(const LocalizationStart& start) {
   outputs_.clear();
   for (const SensorData* data : container.findAll({kModel, kType, {}}))
     outputs_.push_back({data, 0});
-  set({Kind::kSearching, 1.0});
   const std::lock_guard lock(mutex_);
   perceiver_ = localization_;
   perceiver_->wantSamples(wantsSamples_);
   needs_ = needsOf(container);
   published_.clear();
+  if (isWanted_) state_ = {Kind::kSearching, 1.0};
 }
 
 void FilterThread::close(LocalizationState state) {
@@ -199,14 +230,13 @@ void FilterThread::close(LocalizationState state) {
   perceiver_.reset();
   needs_.clear();
   published_.clear();
-  inbox_.moments.clear();
-  state_ = std::move(state);
+  dropMoments();
+  if (isWanted_ == (state.kind != Kind::kOff)) state_ = std::move(state);
 }
 
-/// Orders are obeyed before, and tell what they change without waiting for readings.
-void FilterThread::localize(const std::deque<std::vector<Message>>& moments) {
-  for (const std::vector<Message>& moment : moments) localization_->container().set(moment);
-  if (!moments.empty()) localization_->update();
+void FilterThread::localize(bool hasReadings) {
+  if (!localization_) return;
+  if (hasReadings) localization_->update();
   set(stateOf(*localization_));
   publish();
 }
@@ -231,7 +261,6 @@ void FilterThread::publish() {
   for (Message& message : fresh) published_.push_back(std::move(message));
 }
 
-/// Unless it was switched off meanwhile.
 void FilterThread::set(LocalizationState state) {
   const std::lock_guard lock(mutex_);
   if (isWanted_) state_ = std::move(state);

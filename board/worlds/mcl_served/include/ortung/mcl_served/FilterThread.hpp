@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "ortung/base/Export.hpp"
@@ -73,12 +74,17 @@ class ORTUNG_API FilterThread {
 
  private:
   using Order = LocalizationOrder;
-  /// What other threads have given and this one has not taken yet.
+  using Moment = std::vector<Message>;  ///< readings of one time step
+  /// What other threads have given and this one has not taken yet. An order is obeyed after what
+  /// was given before it: a place is where the robot is when it is told.
   struct Inbox {
-    std::deque<std::vector<Message>> moments;
-    std::vector<Order> orders;
+    std::deque<std::variant<Moment, Order>> given;
+    std::size_t moments = 0;  ///< how many of them are time steps
     bool isRestarted = false;
+    bool isEmpty() const { return given.empty() && !isRestarted; }
   };
+  void dropOldest();
+  void dropMoments();
   /// Body of the thread: waits for the inbox, executes orders, and localizes.
   void run(const std::stop_token& stop);
   /// Waits until there is something to do, and takes it; nothing when the thread is to end.
@@ -88,10 +94,14 @@ class ORTUNG_API FilterThread {
   void start(const Order& order, const std::stop_token& stop);
   /// Creates a filter with a belief about @p start, and publishes its features.
   void open(const LocalizationStart& start);
-  /// Destroys the filter and drops all readings that wait.
+  /// Destroys the filter and drops all readings that wait. The state is what the last order made
+  /// it, if that is another one.
   void close(LocalizationState state);
-  /// Sets the readings of all time steps in their order, then updates the filter once.
-  void localize(const std::deque<std::vector<Message>>& moments);
+  /// Takes what was given out of the inbox, in its order: sets the readings of time steps, obeys
+  /// orders, and updates the filter once before each order and at the end.
+  void take(Inbox& inbox, const std::stop_token& stop);
+  /// Updates the filter if there are readings, and tells what is new.
+  void localize(bool hasReadings);
   /// Copies new readings of the filter's features for takePublished().
   void publish();
   /// Sets the state unless the filter was switched off meanwhile.
