@@ -242,7 +242,7 @@ bool LiveReadings::isReady(Clock::time_point now) const {
   const auto& [stamp, first] = *waiting_.begin();
   const bool isCovered =
       newestScan_ && newestOdometry_ && stamp <= std::min(*newestScan_, *newestOdometry_);
-  return (isCovered && !streams_.isAwaited(stamp, now)) || now - first.since >= kPatience;
+  return (isCovered && !streams_.isAwaited(stamp, now)) || now - first.since >= options_.patience;
 }
 
 /// Where the robot is in odometry between the last pose that was given and the next that waits.
@@ -275,7 +275,8 @@ std::optional<LiveReadings::Moment> LiveReadings::next(std::chrono::milliseconds
     }
     if (now >= end) return Moment{};
     Clock::time_point until = end;
-    if (!waiting_.empty()) until = std::min(until, waiting_.begin()->second.since + kPatience);
+    if (!waiting_.empty())
+      until = std::min(until, waiting_.begin()->second.since + options_.patience);
     arrived_.wait_until(lock, until);
   }
   return std::nullopt;

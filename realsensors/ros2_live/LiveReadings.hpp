@@ -57,6 +57,7 @@ class LiveReadings {
     SensorId odometry;
     bool followsFrames = false;  ///< whether odometry is the transform odom -> base, not a message
     std::string base = "base_footprint", odom = "odom";  ///< frames
+    std::chrono::milliseconds patience{250};  ///< the longest that a reading waits for others
   };
   /// A moment, and the robot's pose in the frame of odometry then, if it is known: between two
   /// odometries it is interpolated.
@@ -91,9 +92,6 @@ class LiveReadings {
   std::string otherBase() const;
   /// What was left out, in words and how often.
   std::map<std::string, std::uint64_t> leftOut() const;
-
-  /// The longest that a reading waits for others of its time.
-  static constexpr std::chrono::milliseconds kPatience{250};
 
  private:
   using Clock = std::chrono::steady_clock;

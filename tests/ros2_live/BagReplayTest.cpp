@@ -107,6 +107,7 @@ TEST(BagReplay, GivesTheReadingsOfTheFile) {
     options.scanners = {{kTopics[1], {"front_scan", "LRF", "scan"}, 3, 8.1},
                         {kTopics[2], {"rear_scan", "LRF", "scan"}, 3, 8.1}};
     options.odometry = {"odometry", "odometry", "pose"};
+    options.patience = std::chrono::milliseconds(600'000);  // on a busy machine, too
     LiveReadings readings(options);
     const std::vector<Message> given = played(all, readings);
     ASSERT_FALSE(given.empty());

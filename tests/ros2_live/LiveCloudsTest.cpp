@@ -30,6 +30,7 @@ class LiveCloudsTest : public ::testing::Test {
     options.odometry = {"odometry", "odometry", "pose"};
     options.base = "base_link";
     options.level = level;
+    options.patience = milliseconds(600'000);  // on a busy machine, too
     return options;
   }
   static void mount(LiveReadings& readings, const std::string& frame, const Pose& pose) {

@@ -90,18 +90,20 @@ class Desk {
     }));
     return messages;
   }
-  /// Reads on until @p isTrue of the status of device number @p device; how many readings came of
-  /// each feature meanwhile.
-  std::map<std::string, std::size_t> readUntil(
+  /// Reads on until @p isTrue of the status of device number @p device; what came of each feature
+  /// meanwhile.
+  std::map<std::string, std::vector<Message>> readUntil(
       std::size_t device, const std::function<bool(const DeviceStatus&)>& isTrue) {
-    std::map<std::string, std::size_t> counts;
+    std::map<std::string, std::vector<Message>> messages;
     EXPECT_TRUE(comesTrue("the device is as it should be", [&] {
       if (isTrue(devices_->status()[device])) return true;
-      if (const auto message = devices_->poll(std::chrono::milliseconds(50)))
-        ++counts[toText(message->id)];
+      if (auto message = devices_->poll(std::chrono::milliseconds(50))) {
+        std::vector<Message>& ofFeature = messages[toText(message->id)];
+        ofFeature.push_back(std::move(*message));
+      }
       return false;
     }));
-    return counts;
+    return messages;
   }
 
  private:

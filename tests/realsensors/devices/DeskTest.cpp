@@ -72,6 +72,14 @@ struct DeskOfBase : testing::Test {
       EXPECT_EQ(message.words, *at++);
     }
   }
+  /// Reads on: no reading of the compass is missing from what came meanwhile on.
+  void expectCompassWentOn(const std::map<std::string, std::vector<Message>>& meanwhile) {
+    const auto found = meanwhile.find(toText(kCompass));
+    std::vector<Message> messages =
+        found == meanwhile.end() ? std::vector<Message>() : found->second;
+    for (Message& message : desk.read(kCompass, 5)) messages.push_back(std::move(message));
+    expectAsGiven(messages);
+  }
   OdometryData wheels;
   ConeData sonar0;
   ConeData sonar1;
@@ -139,10 +147,8 @@ TEST_F(DeskTest, AnUnpluggedDeviceIsReportedAndComesBackWhileOthersGoOn) {
   desk.read(kWheels, 3);
   desk.readUntil(0,
                  [](const DeviceStatus& status) { return status.state == DeviceState::kAbsent; });
-  const auto meanwhile =
-      desk.readUntil(0, [](const DeviceStatus& status) { return status.openings >= 2; });
-  EXPECT_GE(meanwhile.at(toText(kCompass)), 5U);
-  EXPECT_FALSE(meanwhile.contains(toText(kSonar0)));
+  expectCompassWentOn(
+      desk.readUntil(0, [](const DeviceStatus& status) { return status.openings >= 2; }));
   expectAsGiven(desk.read(kWheels, 5));
 }
 
@@ -176,7 +182,7 @@ TEST_F(DeskTest, AWrongSpeedOfTheLineIsReportedAndNothingIsTaken) {
   EXPECT_NE(devices.status()[0].reason.find("at 38400 baud"), std::string::npos)
       << devices.status()[0].reason;
   EXPECT_EQ(devices.status()[0].readings, 0U);
-  EXPECT_GE(meanwhile.at(toText(kCompass)), 5U);
+  expectCompassWentOn(meanwhile);
 }
 
 TEST_F(DeskTest, AClockThatIsSetIsNoticedAndStampsGoOn) {
@@ -213,10 +219,9 @@ TEST_F(DeskTest, AFloodedDeviceIsLateUntilItDropsWhatWaits) {
   desk.add(lines(), line("compass"));
   DevicesSource& devices = desk.start(robotWithCompass(""));
   desk.read(kWheels, 3);
-  desk.readUntil(0, [](const DeviceStatus& status) { return status.late > 0; });
-  const auto meanwhile = desk.readUntil(
-      0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; });
-  EXPECT_GE(meanwhile.at(toText(kCompass)), 3U);
+  expectCompassWentOn(desk.readUntil(0, [](const DeviceStatus& status) {
+    return status.late > 10 && status.state == DeviceState::kRunning;
+  }));
   expectAsGiven(desk.read(kWheels, 10));
   EXPECT_GT(devices.status()[0].late, 10U);
   EXPECT_EQ(devices.status()[0].clockJumps, 0U);
@@ -229,9 +234,8 @@ TEST_F(DeskTest, ASilentDeviceGoesStaleAndRunsAgain) {
   desk.start(robotWithCompass(", stale_after_s = 0.5, late_after_s = 60"));
   desk.read(kWheels, 3);
   desk.readUntil(0, [](const DeviceStatus& status) { return status.state == DeviceState::kStale; });
-  const auto meanwhile = desk.readUntil(
-      0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; });
-  EXPECT_GE(meanwhile.at(toText(kCompass)), 5U);
+  expectCompassWentOn(desk.readUntil(
+      0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; }));
 }
 
 TEST_F(DeskTest, AFrozenDeviceIsToldAndNotUsed) {
@@ -241,7 +245,12 @@ TEST_F(DeskTest, AFrozenDeviceIsToldAndNotUsed) {
                  [](const DeviceStatus& status) { return status.state == DeviceState::kFrozen; });
   const auto meanwhile = desk.readUntil(
       0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; });
-  EXPECT_LE(meanwhile.contains(toText(kSonar0)) ? meanwhile.at(toText(kSonar0)) : 0U, 1U);
+  // Some may have waited that came before it was known.
+  const auto sonar0 = meanwhile.find(toText(kSonar0));
+  if (sonar0 == meanwhile.end()) return;
+  constexpr std::size_t kRepeats = 4;
+  for (std::size_t i = kRepeats; i < sonar0->second.size(); ++i)
+    EXPECT_NE(sonar0->second[i].words, sonar0->second[i - kRepeats].words);
 }
 
 TEST_F(DeskTest, TheRobotIsDrivenThroughItsBase) {

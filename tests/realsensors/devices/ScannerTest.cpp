@@ -148,7 +148,7 @@ TEST_F(SickTest, OfOtherBeamsIsAMisfit) {
 
 TEST_F(SickTest, FrozenIsNotUsed) {
   put(geometry(181, -90, 1));
-  desk->add(std::make_unique<EmulatedSick>(*scan), line(), {"freeze@1-6"});
+  desk->add(std::make_unique<EmulatedSick>(*scan), line(), test::againAndAgain("freeze", 3));
   desk->start(robot("beams = 181\nfov_deg = 180",
                     "plugin = 'sick_lms', port = '/dev/laser', baud = 38400"));
   desk->readUntil(0,
