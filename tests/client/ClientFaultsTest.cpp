@@ -177,10 +177,10 @@ TEST_P(HungServer, EndsNobodysDestructor) {
     return "";
   });
   RemoteOptions options = to(server.port());
-  options.session.timeout = 60.0;
+  options.session.timeout = 600.0;
   auto robot = std::make_unique<RemoteRobot>(kRobot, options);
   ASSERT_TRUE(comesTrue("the server hangs", [&] { return server.isHung(); }));
-  EXPECT_LT(secondsOf([&] { robot.reset(); }), 10.0);
+  EXPECT_LT(secondsOf([&] { robot.reset(); }), 60.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(, HungServer,

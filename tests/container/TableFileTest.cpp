@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -346,9 +347,9 @@ TEST(TableFile, ReadsManyMembersSoon) {
   TableWriter writer(folder / "t.npz");
   for (int i = 0; i < 65000; ++i) writer.addText("t" + std::to_string(i), "x");
   writer.commit();
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of the processor: others may have it meanwhile
   const TableFile file(folder / "t.npz");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  EXPECT_LT(std::clock() - begin, 3 * CLOCKS_PER_SEC);
   EXPECT_EQ(file.text("t64999"), "x");
 }
 
