@@ -57,7 +57,7 @@ class Deadline {
           std::unique_lock lock(mutex_);
           const auto isTold = [] { return interruptSignal() != 0; };
           while (!isTold() && !stop.stop_requested()) wake_.wait_for(lock, stop, kLook, isTold);
-          // In slices: of time in which the whole program stood, at most one counts.
+          // In slices: however long the whole program stood, one of them is over.
           for (auto left = kLongestEnd / kLook; left > 0 && !stop.stop_requested(); --left)
             wake_.wait_for(lock, stop, kLook, [] { return false; });
           if (stop.stop_requested()) return;

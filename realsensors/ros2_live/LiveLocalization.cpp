@@ -265,7 +265,7 @@ void LiveLocalization::tellDiagnostics(const PoseEstimate* relocalized) {
   }
   reading.relocalizations = relocalizations_.count();
   reading.relocalization = relocalizations_.cause();
-  sayStatus(reading.status);
+  sayStatus(reading.status, stamp);
   DiagnosticArray told =
       diagnosticsMessage(reading, protection, options_.name, {nanoseconds(stamp), ""});
   floors_.describe(told.status.front());
@@ -312,10 +312,12 @@ void LiveLocalization::onMoment(const LiveReadings::Moment& moment) {
 }
 
 /// Tells on the terminal when the robot was found, and when it is lost.
-void LiveLocalization::sayStatus(TrackStatus status) {
+void LiveLocalization::sayStatus(TrackStatus status, Timestamp stamp) {
   const bool isLost = status == TrackStatus::kLost;
   if (isFound_ ? !isLost : status != TrackStatus::kTracking) return;
-  const Pose2 inField = localization_->mcl().estimate().pose;
+  // A place that was told is not weighed yet.
+  const auto present = isLost ? std::nullopt : localization_->estimate(stamp);
+  const Pose2 inField = present ? present->pose : localization_->mcl().estimate().pose;
   if (!floors_.isHere(inField)) return;  // of no map that anybody has
   isFound_ = !isLost;
   std::cout << "ortung-ros2: the robot is " << (isLost ? "lost, last" : "found") << " at "

@@ -89,7 +89,7 @@ class LiveLocalization {
   void followOdometry();
   void report();
   void reportSilence();
-  void sayStatus(TrackStatus status);
+  void sayStatus(TrackStatus status, Timestamp stamp);
   void sayRelocalization(const Pose2& inField) const;
   void saveBelief();
 

@@ -133,7 +133,8 @@ std::string Program::waitForOutput(const std::string& text) {
 
 void Program::signal(int number) const {
   kill(process_, number);
-  if (number == SIGSTOP) waitpid(process_, nullptr, WUNTRACED);
+  siginfo_t info;
+  if (number == SIGSTOP) waitid(P_PID, static_cast<id_t>(process_), &info, WSTOPPED);
 }
 
 Outcome Program::finish() {

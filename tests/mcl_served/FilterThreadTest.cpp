@@ -64,6 +64,28 @@ TEST(FilterThread, SaysWhyItHasFailedAndCanTryAgain) {
   EXPECT_THROW(filter.order({OrderKind::kPlace, {50, 50, 0}}), std::invalid_argument);
 }
 
+TEST(FilterThread, AnOrderThatWaitsIsObeyedAfterAFailure) {
+  const LocalizedArena arena;
+  std::latch given{1};
+  bool fails = true;
+  FilterThread filter({arena.robotFile,
+                       [&](const Robot& robot, const std::function<bool(double)>& goOn) {
+                         given.wait();
+                         if (std::exchange(fails, false)) throw std::runtime_error("no such luck");
+                         return arena.config().tables(robot, goOn);
+                       },
+                       1});
+  filter.order({OrderKind::kOn});
+  filter.order({OrderKind::kPlace, {0.5, -1.5, kTurn / 4}});
+  given.count_down();
+  await(filter, Kind::kSearching);
+  filter.order({OrderKind::kOff});
+  filter.order({OrderKind::kOn});
+  EXPECT_NE(filter.state().kind, Kind::kOff) << "the last order counts";
+  await(filter, Kind::kSearching);
+  EXPECT_NE(filter.perceiver(), nullptr);
+}
+
 /// The newest pose that the filter has published since it was asked last.
 std::optional<std::pair<Timestamp, Pose2>> published(FilterThread& filter) {
   std::vector<Message> messages;

@@ -142,16 +142,22 @@ TEST(LocalizedWorld, TellsWhatFiltersFinishWhileTheWorldStands) {
   ServedArena served({"scout"});
   TestClient& client = served.client;
   served.await("running");
-  client.ask("NEXT cycles=40 none/*/*");
-  client.ask("PAUSE");
-  // The newest scan was taken before the world stood; its estimate was not there yet.
   const auto stampOf = [&](const std::string& query) {
     const std::vector<std::string> read = served.lines("READ " + query + " robot=1");
     return read.size() == 1 ? parseLine(read.front())->stamp : -1;
   };
-  const Timestamp scan = stampOf("*/LRF/*");
-  EXPECT_TRUE(comesTrue("there is an estimate of the newest scan",
-                        [&] { return stampOf("mcl/LOCALIZATION/pose") >= scan; }));
+  // The newest scan was taken before the world stood; its estimate was not there yet. Scans of a
+  // robot that did not move are not weighed: then the world goes on a little.
+  int looks = 0;
+  Timestamp scan = 0;
+  EXPECT_TRUE(comesTrue("there is an estimate of the newest scan", [&] {
+    if (looks++ % 500 == 0) {
+      client.ask("NEXT cycles=40 none/*/*");
+      scan = stampOf("*/LRF/*");
+      return false;
+    }
+    return stampOf("mcl/LOCALIZATION/pose") >= scan;
+  }));
 }
 
 TEST(LocalizedWorld, NamesThatNobodyHasAreRefused) {

@@ -38,7 +38,7 @@ TEST(Abandon, TellsAllClientsWhyAlthoughTheWorldHangs) {
   EXPECT_TRUE(subscriber.ask("SUBSCRIBE counter/*/*").starts_with("OK SUBSCRIBE"));
   world.shallHang = true;
   world.hangs.acquire();
-  board.abandon("the server ends, it hangs");  // waits for a second that it is told
+  board.abandon("the server ends, it hangs");  // waits up to a second until all are told
   EXPECT_EQ(idle.line(), "* BYE the server ends, it hangs");
   EXPECT_EQ(idle.line(), "(closed)");
   EXPECT_EQ(subscriber.lineWith("BYE"), "* BYE the server ends, it hangs");

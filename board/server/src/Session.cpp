@@ -199,10 +199,11 @@ void Session::look(Timestamp now) {
     if (hasPassed(heard_, now, kFarewell + limits_.refusal)) close();
     return;
   }
-  if (conversation_->hasOpenRequests()) return;
+  if (conversation_->isWaiting()) return;
   if (!conversation_->hasJoined() && hasPassed(started_, now, limits_.handshake)) {
     dismiss(lateHello(limits_));
-  } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed()) {
+  } else if (hasPassed(heard_, now, limits_.idle) && !conversation_->isSubscribed() &&
+             !conversation_->hasOpenRequests()) {
     dismiss("ERR idle nothing came for " + std::to_string(static_cast<int>(limits_.idle)) + " s");
   }
 }

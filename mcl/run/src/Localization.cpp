@@ -212,7 +212,11 @@ void Localization::setPose(const Pose2& pose, const PoseCovariance& covariance) 
   checkPlace(robot_->tables.region, pose, isNumber ? std::sqrt(variance) : 0.0, "the pose set");
   mcl_->setPose(pose, covariance);
   waitsForTruth_ = false;
-  publish(present());  // no reading may come that tells it: the world may stand
+  if (!publishes_ || !mcl_->hasOdometry()) return;
+  // No reading may come that tells it: the world may stand.
+  const PoseEstimate estimate = present();
+  toldAt_ = estimate.stamp;
+  publish(estimate);
 }
 
 void Localization::relocalize() {
@@ -250,7 +254,7 @@ void Localization::publish(const PoseEstimate& estimate) {
       trackMessage(estimate),
       protectionMessage(estimate),
       clustersMessage(stamp, mcl_->places()),
-      WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, ++estimates_})};
+      WorkData::message(stamp, {samples.size(), worthOf(samples), newest_ * 1e-3, estimates_})};
   if (auto changes = newChanges(stamp)) all.push_back(std::move(*changes));
   if (wantsSamples_) all.push_back(samplesMessage(stamp, samples));
   robot_->container.set(all);
@@ -320,7 +324,10 @@ std::optional<PoseEstimate> Localization::update() {
   longest_ = std::exchange(longestSince_, 0.0);
   spent_ = std::exchange(spentSince_, 0.0);
   if (isGrid()) return grid_->estimate();
-  publish(mcl_->estimate());
+  ++estimates_;
+  // Readings of before a place was told may weigh it; what is published does not go back in time.
+  const bool isOlder = toldAt_ && mcl_->estimate().stamp < *toldAt_;
+  publish(isOlder ? present() : mcl_->estimate());
   return mcl_->estimate();
 }
 

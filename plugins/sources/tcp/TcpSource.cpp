@@ -182,7 +182,9 @@ class TcpHelp : public SourceHelp {
               "how long a running robot's readings are held for delayed ones"},
              {"form", "", "binary", "format of readings on the wire; text has no pictures"},
              {"name", "", "robot", "name of client and robot"},
-             {"timeout", "s", "60", "how long the server may be silent"}}) {}
+             {"timeout", "s", "60",
+              "how long the server may give no reading; an answer may take as long, if it "
+              "is given, otherwise 5 s"}}) {}
 };
 
 }  // namespace

@@ -90,6 +90,17 @@ class Desk {
     }));
     return messages;
   }
+  /// Reads on until so many readings of @p id came while device number @p device was in a state,
+  /// which may be several times.
+  void readWhile(std::size_t device, DeviceState state, const SensorId& id, int count) {
+    const auto isIn = [&] { return devices_->status()[device].state == state; };
+    EXPECT_TRUE(comesTrue("readings of " + toText(id) + " come meanwhile", [&] {
+      const bool wasIn = isIn();
+      const auto message = devices_->poll(std::chrono::milliseconds(50));
+      if (wasIn && message && message->id == id && isIn()) --count;
+      return count <= 0;
+    }));
+  }
   /// Reads on until @p isTrue of the status of device number @p device; what came of each feature
   /// meanwhile.
   std::map<std::string, std::vector<Message>> readUntil(

@@ -72,7 +72,7 @@ struct DeskOfBase : testing::Test {
       EXPECT_EQ(message.words, *at++);
     }
   }
-  /// Reads on: no reading of the compass is missing from what came meanwhile on.
+  /// Reads on: no reading of the compass is missing since the first one that came meanwhile.
   void expectCompassWentOn(const std::map<std::string, std::vector<Message>>& meanwhile) {
     const auto found = meanwhile.find(toText(kCompass));
     std::vector<Message> messages =
@@ -145,8 +145,7 @@ TEST_F(DeskTest, AnUnpluggedDeviceIsReportedAndComesBackWhileOthersGoOn) {
   desk.add(lines(), line("compass"));
   desk.start(robotWithCompass());
   desk.read(kWheels, 3);
-  desk.readUntil(0,
-                 [](const DeviceStatus& status) { return status.state == DeviceState::kAbsent; });
+  desk.readWhile(0, DeviceState::kAbsent, kCompass, 5);
   expectCompassWentOn(
       desk.readUntil(0, [](const DeviceStatus& status) { return status.openings >= 2; }));
   expectAsGiven(desk.read(kWheels, 5));
@@ -183,6 +182,7 @@ TEST_F(DeskTest, AWrongSpeedOfTheLineIsReportedAndNothingIsTaken) {
       << devices.status()[0].reason;
   EXPECT_EQ(devices.status()[0].readings, 0U);
   expectCompassWentOn(meanwhile);
+  desk.readWhile(0, DeviceState::kAbsent, kCompass, 5);
 }
 
 TEST_F(DeskTest, AClockThatIsSetIsNoticedAndStampsGoOn) {
@@ -233,7 +233,7 @@ TEST_F(DeskTest, ASilentDeviceGoesStaleAndRunsAgain) {
   desk.add(lines(), line("compass"));
   desk.start(robotWithCompass(", stale_after_s = 0.5, late_after_s = 60"));
   desk.read(kWheels, 3);
-  desk.readUntil(0, [](const DeviceStatus& status) { return status.state == DeviceState::kStale; });
+  desk.readWhile(0, DeviceState::kStale, kCompass, 5);
   expectCompassWentOn(desk.readUntil(
       0, [](const DeviceStatus& status) { return status.state == DeviceState::kRunning; }));
 }

@@ -34,6 +34,12 @@ std::vector<SensorId> needsOf(const SensorContainer& container) {
   return ids;
 }
 
+/// Whether something that was given is of this kind.
+template <typename What>
+constexpr auto isA = [](const auto& given) { return std::holds_alternative<What>(given); };
+
+bool isOff(const LocalizationOrder& order) { return order.kind == LocalizationOrder::Kind::kOff; }
+
 LocalizationStart startOf(const LocalizationOrder& order) {
   if (order.kind != LocalizationOrder::Kind::kPlace) return {};
   return {LocalizationStart::Kind::kPose, order.pose, order.sigmaPosition, order.sigmaHeading};
@@ -57,9 +63,7 @@ void FilterThread::take(std::span<const Message> moment) {
       if (std::find(needs_.begin(), needs_.end(), message.id) != needs_.end())
         needed.push_back(message);
     if (needed.empty()) return;
-    if (inbox_.moments == kMostMoments) dropOldest();
-    inbox_.given.emplace_back(std::move(needed));
-    ++inbox_.moments;
+    give(std::move(needed), kMostMoments);
   }
   news_.notify_one();
 }
@@ -73,12 +77,12 @@ void FilterThread::order(const LocalizationOrder& order) {
   if (known && order.kind == Order::Kind::kPlace) known->checkPose(order.pose, order.sigmaPosition);
   {
     const std::lock_guard lock(mutex_);
-    isWanted_ = order.kind != Order::Kind::kOff;
+    isWanted_ = !isOff(order);
     if (!isWanted_)
       state_ = {};
     else if (state_.kind == Kind::kOff || state_.kind == Kind::kFailed)
       state_ = {Kind::kLearning};
-    inbox_.given.emplace_back(order);
+    give(order, kMostOrders);
   }
   news_.notify_one();
 }
@@ -86,8 +90,8 @@ void FilterThread::order(const LocalizationOrder& order) {
 void FilterThread::restart() {
   {
     const std::lock_guard lock(mutex_);
-    dropMoments();
-    inbox_.isRestarted = true;
+    std::erase_if(inbox_, isA<Moment>);
+    give(Restart(), 1);
     published_.clear();
   }
   news_.notify_one();
@@ -99,18 +103,12 @@ void FilterThread::wantSamples(bool wanted) {
   if (perceiver_) perceiver_->wantSamples(wanted);
 }
 
-/// @pre mutex_ is locked, and a time step waits
-void FilterThread::dropOldest() {
-  inbox_.given.erase(std::find_if(inbox_.given.begin(), inbox_.given.end(), [](const auto& one) {
-    return std::holds_alternative<Moment>(one);
-  }));
-  --inbox_.moments;
-}
-
 /// @pre mutex_ is locked
-void FilterThread::dropMoments() {
-  std::erase_if(inbox_.given, [](const auto& one) { return std::holds_alternative<Moment>(one); });
-  inbox_.moments = 0;
+template <typename Given>
+void FilterThread::give(Given given, std::ptrdiff_t most) {
+  if (std::ranges::count_if(inbox_, isA<Given>) == most)
+    inbox_.erase(std::ranges::find_if(inbox_, isA<Given>));
+  inbox_.emplace_back(std::move(given));
 }
 
 LocalizationState FilterThread::state() const {
@@ -142,7 +140,7 @@ void FilterThread::requestStop() { thread_.request_stop(); }
 void FilterThread::run(const std::stop_token& stop) {
   const Patience patience(Patience::kBeside);
   while (auto inbox = await(stop)) {
-    while (!inbox->isEmpty()) {
+    while (!inbox->empty() && !stop.stop_requested()) {
       try {
         take(*inbox, stop);
       } catch (const std::exception& error) {
@@ -158,31 +156,36 @@ void FilterThread::run(const std::stop_token& stop) {
 /// What there is to do; nothing at the end.
 std::optional<FilterThread::Inbox> FilterThread::await(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  const bool hasNews = news_.wait(lock, stop, [this] { return !inbox_.isEmpty(); });
+  const bool hasNews = news_.wait(lock, stop, [this] { return !inbox_.empty(); });
   if (!hasNews || stop.stop_requested()) return std::nullopt;
   return std::exchange(inbox_, {});
 }
 
 void FilterThread::take(Inbox& inbox, const std::stop_token& stop) {
-  if (std::exchange(inbox.isRestarted, false) && localization_) open({});
   bool hasReadings = false;
-  while (!inbox.given.empty()) {
-    const std::variant<Moment, Order> given = std::move(inbox.given.front());
-    inbox.given.pop_front();
+  while (!inbox.empty() && !stop.stop_requested()) {
+    if (const Order* order = std::get_if<Order>(&inbox.front()); order && !isOff(*order))
+      localize(std::exchange(hasReadings, false));  // may throw: then the order still waits
+    const auto given = std::move(inbox.front());
+    inbox.pop_front();
     if (const Order* order = std::get_if<Order>(&given)) {
-      localize(std::exchange(hasReadings, false));
       obey(*order, stop);
       localize(false);
-    } else if (localization_) {
-      localization_->container().set(std::get<Moment>(given));
+    } else if (!localization_) {
+      continue;
+    } else if (const Moment* moment = std::get_if<Moment>(&given)) {
+      localization_->container().set(*moment);
       hasReadings = true;
+    } else {
+      open({});
+      hasReadings = false;
     }
   }
   if (hasReadings) localize(true);
 }
 
 void FilterThread::obey(const Order& order, const std::stop_token& stop) {
-  if (order.kind == Order::Kind::kOff) return close({});
+  if (isOff(order)) return close({});
   if (!localization_) return start(order, stop);
   ortung::obey(order, *localization_);
 }
@@ -230,8 +233,10 @@ void FilterThread::close(LocalizationState state) {
   perceiver_.reset();
   needs_.clear();
   published_.clear();
-  dropMoments();
-  if (isWanted_ == (state.kind != Kind::kOff)) state_ = std::move(state);
+  if (isWanted_ && state.kind == Kind::kOff)
+    state_ = {Kind::kLearning};
+  else if (isWanted_)
+    state_ = std::move(state);
 }
 
 void FilterThread::localize(bool hasReadings) {
@@ -253,7 +258,8 @@ void FilterThread::publish() {
     }
   }
   const std::lock_guard lock(mutex_);
-  if (inbox_.isRestarted) return;  // meanwhile: it is of a time that has not come yet
+  if (std::ranges::any_of(inbox_, isA<Restart>))
+    return;  // meanwhile: it is of a time that has not come yet
   std::erase_if(published_, [&](const Message& old) {
     return std::any_of(fresh.begin(), fresh.end(),
                        [&](const Message& one) { return one.id == old.id; });

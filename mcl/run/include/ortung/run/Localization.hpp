@@ -139,7 +139,7 @@ class ORTUNG_API Localization {
 
   /// Sets the belief to a pose that the caller knows now; odometry carries it on and readings
   /// sharpen it. Unlike start() it keeps what is known of time and odometry, and does not wait for
-  /// a reading: it is published at once.
+  /// a reading: once there is odometry, it is published at once.
   /// @param covariance may be singular
   /// @throws std::invalid_argument if that is no covariance, or as start(). The belief stays then
   void setPose(const Pose2& pose, const PoseCovariance& covariance);
@@ -221,6 +221,7 @@ class ORTUNG_API Localization {
   std::optional<Timestamp> taken_;        ///< stamp of the newest moment that the program has given
   const SensorData* odometry_ = nullptr;  ///< odometry's feature; null without odometry
   std::optional<std::pair<TrackStatus, TrackReason>> published_;
+  std::optional<Timestamp> toldAt_;  ///< the pose that was set last was published with this stamp
   std::optional<Timestamp> lookedAtMap_;  ///< when the map's changes were asked for last
   Timestamp toldMapAt_ = 0;               ///< time of their newest reading
   std::vector<std::uint32_t> toldMap_;    ///< its words

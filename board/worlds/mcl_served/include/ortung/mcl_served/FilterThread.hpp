@@ -32,7 +32,7 @@ using TableGiver = std::function<std::shared_ptr<const RobotTables>(
 
 /// Localizes one robot by given readings, on a thread of its own, which also waits for the tables.
 /// The caller of take() never waits: where the filter lags behind, it sets one time step after the
-/// other and updates once; where it lags far behind, time steps are lost.
+/// other and updates once; where it lags far behind, time steps are lost, and the oldest orders.
 /// Thread-safe.
 class ORTUNG_API FilterThread {
  public:
@@ -42,7 +42,8 @@ class ORTUNG_API FilterThread {
     TableGiver tables;
     std::uint64_t seed = 1;
   };
-  static constexpr std::size_t kMostMoments = 256;  ///< time steps that may wait
+  static constexpr std::ptrdiff_t kMostMoments = 256;  ///< time steps that may wait
+  static constexpr std::ptrdiff_t kMostOrders = 64;    ///< orders that may wait
 
   /// Off at first.
   explicit FilterThread(Config config);
@@ -75,16 +76,13 @@ class ORTUNG_API FilterThread {
  private:
   using Order = LocalizationOrder;
   using Moment = std::vector<Message>;  ///< readings of one time step
-  /// What other threads have given and this one has not taken yet. An order is obeyed after what
-  /// was given before it: a place is where the robot is when it is told.
-  struct Inbox {
-    std::deque<std::variant<Moment, Order>> given;
-    std::size_t moments = 0;  ///< how many of them are time steps
-    bool isRestarted = false;
-    bool isEmpty() const { return given.empty() && !isRestarted; }
-  };
-  void dropOldest();
-  void dropMoments();
+  struct Restart {};
+  /// What other threads have given and this one has not taken yet. All of it keeps its turn: a
+  /// place is where the robot is when it is told.
+  using Inbox = std::deque<std::variant<Moment, Order, Restart>>;
+  /// Adds to the inbox; drops the oldest of the same kind if there are @p most of them.
+  template <typename Given>
+  void give(Given given, std::ptrdiff_t most);
   /// Body of the thread: waits for the inbox, executes orders, and localizes.
   void run(const std::stop_token& stop);
   /// Waits until there is something to do, and takes it; nothing when the thread is to end.
@@ -94,10 +92,10 @@ class ORTUNG_API FilterThread {
   void start(const Order& order, const std::stop_token& stop);
   /// Creates a filter with a belief about @p start, and publishes its features.
   void open(const LocalizationStart& start);
-  /// Destroys the filter and drops all readings that wait. The state is what the last order made
-  /// it, if that is another one.
+  /// Destroys the filter. Orders that wait count more than @p state: none fails while it is off,
+  /// and what is to be on again is not off.
   void close(LocalizationState state);
-  /// Takes what was given out of the inbox, in its order: sets the readings of time steps, obeys
+  /// Takes out of the inbox what was given, in its order: sets the readings of time steps, obeys
   /// orders, and updates the filter once before each order and at the end.
   void take(Inbox& inbox, const std::stop_token& stop);
   /// Updates the filter if there are readings, and tells what is new.
