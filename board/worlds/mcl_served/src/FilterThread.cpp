@@ -36,7 +36,9 @@ std::vector<SensorId> needsOf(const SensorContainer& container) {
 
 /// Whether something that was given is of this kind.
 template <typename What>
-constexpr auto isA = [](const auto& given) { return std::holds_alternative<What>(given); };
+struct IsA {
+  bool operator()(const auto& given) const { return std::holds_alternative<What>(given); }
+};
 
 bool isOff(const LocalizationOrder& order) { return order.kind == LocalizationOrder::Kind::kOff; }
 
@@ -90,7 +92,7 @@ void FilterThread::order(const LocalizationOrder& order) {
 void FilterThread::restart() {
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(inbox_, isA<Moment>);
+    std::erase_if(inbox_, IsA<Moment>());
     give(Restart(), 1);
     published_.clear();
   }
@@ -106,8 +108,8 @@ void FilterThread::wantSamples(bool wanted) {
 /// @pre mutex_ is locked
 template <typename Given>
 void FilterThread::give(Given given, std::ptrdiff_t most) {
-  if (std::ranges::count_if(inbox_, isA<Given>) == most)
-    inbox_.erase(std::ranges::find_if(inbox_, isA<Given>));
+  if (std::ranges::count_if(inbox_, IsA<Given>()) == most)
+    inbox_.erase(std::ranges::find_if(inbox_, IsA<Given>()));
   inbox_.emplace_back(std::move(given));
 }
 
@@ -258,7 +260,7 @@ void FilterThread::publish() {
     }
   }
   const std::lock_guard lock(mutex_);
-  if (std::ranges::any_of(inbox_, isA<Restart>))
+  if (std::ranges::any_of(inbox_, IsA<Restart>()))
     return;  // meanwhile: it is of a time that has not come yet
   std::erase_if(published_, [&](const Message& old) {
     return std::any_of(fresh.begin(), fresh.end(),
