@@ -60,7 +60,9 @@ TEST(OnTrouble, WhatItThrowsIsPassedOverInEveryThread) {
   };
   RemoteRobot robot(kRobot, options);
   EXPECT_THROW(robot.setManipulator("arm", "up"), std::invalid_argument);  // not what it throws
-  EXPECT_TRUE(comesTrue("the refusal is told, by whichever thread", [&] { return told == 1; }));
+  // The robot's own thread may be the one that tells it.
+  ASSERT_TRUE(comesTrue("the refusal is told", [&] { return told >= 1; }));
+  EXPECT_EQ(told, 1);
   served.reset();
   // By the thread that updates.
   ASSERT_TRUE(comesTrue("the loss is told", [&] { return told >= 2; }));
@@ -93,7 +95,7 @@ TEST(OnTrouble, MayUseTheRobotAndIsNotToldOfItself) {
   EXPECT_THROW(robot.setManipulator("arm", "up"), std::invalid_argument);
   // The robot's own thread may be the one that tells it.
   ASSERT_TRUE(comesTrue("the refusal is told", [&] { return told >= 1; }));
-  EXPECT_TRUE(comesTrue("the refusal is told, by whichever thread", [&] { return told == 1; }));
+  EXPECT_EQ(told, 1);
   EXPECT_EQ(failed, 1);
   EXPECT_NE(robot.trouble().find("'leg'"), std::string::npos) << robot.trouble();
   served.reset();

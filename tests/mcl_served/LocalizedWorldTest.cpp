@@ -55,7 +55,7 @@ struct ServedArena {
   }
   /// Lets the world go on until the robot believes to be within @p metres of a place.
   void awaitBelief(const Pose2& place, double metres) {
-    EXPECT_TRUE(comesTrue("it believes to be there", [&] {
+    EXPECT_TRUE(comesTrue("the estimate is there", [&] {
       if (distance(believed(), place) <= metres) return true;
       client.ask("NEXT none/*/* cycles=1");
       return false;
@@ -91,15 +91,15 @@ TEST(LocalizedWorld, RobotsAreLocalizedWhenAnOperatorSaysSo) {
   served.await("running");
   EXPECT_TRUE(served.client.ask("READ mcl/LOCALIZATION/samples robot=1 form=binary")
                   .starts_with("OK READ robot=1"));
-  // Told that it is elsewhere, it believes so, until readings convince it. The world stands.
+  // The estimate is at the place that it is told until readings correct it; the world stands.
   const Pose2 truth = served.simulation.simRobot(1).state().pose;
   const Pose2 told{truth.x > 0.0 ? -2.4 : 2.4, truth.y > 0.0 ? -1.4 : 1.4, 0.0};
   ASSERT_GT(distance(served.believed(), told), 1.0);
   const std::string place = "x_m=" + std::to_string(told.x) + " y_m=" + std::to_string(told.y);
   EXPECT_TRUE(served.client.ask("LOCALIZE robot=1 " + place + " sigma_m=0.05")
                   .starts_with("OK LOCALIZE robot=1"));
-  EXPECT_TRUE(comesTrue("it believes to be there",
-                        [&] { return distance(served.believed(), told) < 0.5; }));
+  EXPECT_TRUE(
+      comesTrue("the estimate is there", [&] { return distance(served.believed(), told) < 0.5; }));
   EXPECT_TRUE(served.client.ask("LOCALIZE robot=1 x_m=50 y_m=0")
                   .starts_with("ERR argument the pose (50.00, 0.00) m is off the map"));
   EXPECT_EQ(valueOf(served.client.ask("LOCALIZE robot=1 off"), "state"), "off");

@@ -183,8 +183,8 @@ class TcpHelp : public SourceHelp {
              {"form", "", "binary", "format of readings on the wire; text has no pictures"},
              {"name", "", "robot", "name of client and robot"},
              {"timeout", "s", "60",
-              "how long the server may give no reading; an answer may take as long, if it "
-              "is given, otherwise 5 s"}}) {}
+              "how long there may be no reading; where it is set, an answer may take as long, "
+              "otherwise 5 s"}}) {}
 };
 
 }  // namespace

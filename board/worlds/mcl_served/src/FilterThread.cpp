@@ -107,8 +107,9 @@ void FilterThread::wantSamples(bool wanted) {
 
 /// @pre mutex_ is locked
 template <typename Given>
-void FilterThread::give(Given given, std::ptrdiff_t most) {
-  if (std::ranges::count_if(inbox_, IsA<Given>()) == most)
+void FilterThread::give(Given given, std::size_t most) {
+  const auto those = std::ranges::count_if(inbox_, IsA<Given>());
+  if (static_cast<std::size_t>(those) == most)
     inbox_.erase(std::ranges::find_if(inbox_, IsA<Given>()));
   inbox_.emplace_back(std::move(given));
 }

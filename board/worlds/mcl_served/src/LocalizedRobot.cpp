@@ -9,7 +9,6 @@ namespace ortung {
 namespace {
 
 constexpr RobotId kRobot = 1;
-constexpr std::size_t kMostOrders = 64;
 
 void check(RobotId robot) {
   if (robot != kRobot) throw ServeError("no-robot", "there is no robot " + std::to_string(robot));

@@ -42,8 +42,7 @@ class ORTUNG_API FilterThread {
     TableGiver tables;
     std::uint64_t seed = 1;
   };
-  static constexpr std::ptrdiff_t kMostMoments = 256;  ///< time steps that may wait
-  static constexpr std::ptrdiff_t kMostOrders = 64;    ///< orders that may wait
+  static constexpr std::size_t kMostMoments = 256;  ///< time steps that may wait
 
   /// Off at first.
   explicit FilterThread(Config config);
@@ -82,7 +81,7 @@ class ORTUNG_API FilterThread {
   using Inbox = std::deque<std::variant<Moment, Order, Restart>>;
   /// Adds to the inbox; drops the oldest of the same kind if there are @p most of them.
   template <typename Given>
-  void give(Given given, std::ptrdiff_t most);
+  void give(Given given, std::size_t most);
   /// Body of the thread: waits for the inbox, executes orders, and localizes.
   void run(const std::stop_token& stop);
   /// Waits until there is something to do, and takes it; nothing when the thread is to end.
