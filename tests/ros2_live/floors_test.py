@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 from cdr import Reader, Writer
 
@@ -17,6 +18,7 @@ node, peer, client = map(pathlib.Path, sys.argv[1:])
 DOMAIN = 171 + os.getpid() % 30  # each test has domains of its own
 PACE, CELL, ORIGIN = 5.0, 0.05, -1.0
 BEAMS, STEP, FAR, MOUNT = 181, math.radians(1.0), 10.0, 0.1
+LONGEST = 60.0  # [s] for whatever comes at last, on a busy machine, too
 OCCUPIED, UNKNOWN, FREE = 0, 205, 254
 
 # Each floor: width and depth of its inside [m], and what stands there: x, y, width, depth.
@@ -105,6 +107,7 @@ class Robot:
         self.lines, self.ended, self.arrived = [], False, threading.Condition()
         threading.Thread(target=self.listen, daemon=True).start()
         self.count, self.way, self.truth, self.best = 0, 0, {}, []
+        self.is_answered = False  # whether the node has answered the last scan
 
     def listen(self):
         for line in self.process.stdout:
@@ -119,10 +122,19 @@ class Robot:
         self.process.stdin.write("\n".join(lines) + "\n")
         self.process.stdin.flush()
 
-    def wait_for(self, *words):
+    def is_heard(self, words, since, timeout):
+        """Whether a line that begins with these words is among those that came after so many, or comes in time."""
+        seen = since
+
+        def is_there():
+            nonlocal seen
+            begin, seen = seen, len(self.lines)
+            return self.ended or any(one[:len(words)] == words for one in self.lines[begin:])
         with self.arrived:
-            there = self.arrived.wait_for(lambda: self.ended or list(words) in [one[:len(words)] for one in self.lines[-200:]], timeout=60)
-        expect(there and not self.ended, "the robot does not say %s" % (words,))
+            return self.arrived.wait_for(is_there, timeout) and not self.ended
+
+    def wait_for(self, *words, since=0):
+        expect(self.is_heard(list(words), since, LONGEST), "the robot does not say %s" % (words,))
 
     def heard(self, since=0):
         with self.arrived:
@@ -133,16 +145,23 @@ class Robot:
         return "scan %d laser %r %r %g %d %s" % (stamp, -(BEAMS // 2) * STEP, STEP, FAR, BEAMS, " ".join(scan_of(boxes, pose)))
 
     def drive(self, floor, enough, what, stands=False):
-        """Drives or stands on a floor, or in a cabin, until what was heard meanwhile is enough."""
+        """Drives or stands on a floor, or in a cabin, until what was heard meanwhile is enough.
+
+        While the node answers scans, the next one is said once it has answered the last one: however busy the machine is, the node is never
+        behind. While it searches for the robot it answers none, and the robot keeps its pace."""
         begin = len(self.heard())
-        for _ in range(600):
+        end = time.monotonic() + LONGEST
+        while time.monotonic() < end:
+            since = len(self.heard())
             self.count += 1
             self.way += not stands
             stamp = round((1000 + 0.1 * self.count) * 1e9)
             pose = on_way(0.1 * self.way)
             self.truth[stamp] = pose
             self.say("odom %d %r %r %r %s" % (stamp, *beside(pose, on_way(0.1)), "0 0" if stands else "0.4 0.5"), self.scan(floor, stamp, pose))
-            self.wait_for("scanned", str(stamp))
+            self.wait_for("scanned", str(stamp), since=since)
+            answers = self.is_heard(["diagnostics"], since, 2.0 if self.is_answered else 0.05)  # also one to an earlier scan
+            self.is_answered = answers and self.is_heard(["diagnostics", str(stamp)], since, 2.0)
             words = self.heard(begin)
             if enough(words):
                 return words
