@@ -16,9 +16,11 @@
 #define _GNU_SOURCE
 #include <dds/dds.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <threads.h>
 #include <time.h>
 
 #include "messages.h"
@@ -156,7 +158,7 @@ typedef struct {
   void (*print)(const void*);
 } Heard;
 
-static int hear(const Heard* heard) {
+static int hear_once(const Heard* heard) {
   int count = 0;
   for (int i = 0; i < kTopics; ++i) {
     for (;;) {
@@ -167,8 +169,19 @@ static int hear(const Heard* heard) {
       dds_return_loan(heard[i].entity, &sample, 1);
     }
   }
-  fflush(stdout);
+  if (count > 0) fflush(stdout);
   return count;
+}
+
+static atomic_int all_is_said;
+
+// A thread of its own: who waits for what is heard says nothing meanwhile. Once all is said, it
+// ends when nothing has come for a second.
+static int hear(void* of_topics) {
+  const Heard* heard = of_topics;
+  for (double quiet = now(); !all_is_said || now() - quiet < 1.0; rest(0.001))
+    if (hear_once(heard) > 0 || !all_is_said) quiet = now();
+  return 0;
 }
 
 static void say_map(dds_entity_t maps, const char* line) {
@@ -299,7 +312,7 @@ int main(int argc, char** argv) {
   dds_entity_t maps = writer("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1);
   dds_entity_t initial =
       writer("rt/initialpose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 0);
-  const Heard heard[kTopics] = {
+  Heard heard[kTopics] = {
       {reader("rt/tf", &tf2_msgs_msg_dds__TFMessage__desc, 1, 0), print_tf},
       {reader("rt/amcl_pose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, 1, 1),
        print_pose},
@@ -311,6 +324,8 @@ int main(int argc, char** argv) {
       {reader("rt/likelihood_map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1), print_likelihood},
       {reader("rt/floor", &std_msgs_msg_dds__String__desc, 1, 1), print_floor},
       {reader("rt/map", &nav_msgs_msg_dds__OccupancyGrid__desc, 1, 1), print_map}};
+  thrd_t listener;
+  if (thrd_create(&listener, hear, heard) != thrd_success) return fprintf(stderr, "no thread\n"), 1;
   char* line = NULL;
   size_t size = 0;
   long long first = -1;
@@ -323,7 +338,7 @@ int main(int argc, char** argv) {
     if (sscanf(line, "scan %lld", &stamp) == 1 || sscanf(line, "cloud %lld", &stamp) == 1 ||
         sscanf(line, "odom %lld", &stamp) == 1) {
       if (first < 0) first = stamp;
-      while (now() - begin < 1e-9 * (double)(stamp - first) / pace) hear(heard), rest(0.001);
+      while (now() - begin < 1e-9 * (double)(stamp - first) / pace) rest(0.001);
     }
     if (sscanf(line, "static %255s %255s %lf %lf %lf", frame, child, &x, &y, &theta) == 5) {
       geometry_msgs_msg_dds__TransformStamped_ one = {
@@ -357,10 +372,10 @@ int main(int argc, char** argv) {
     } else {
       say_scan(scans, line);
     }
-    hear(heard);
+    fflush(stdout);
   }
-  for (double quiet = now(); now() - quiet < 1.0; rest(0.005))
-    if (hear(heard) > 0) quiet = now();
+  all_is_said = 1;
+  thrd_join(listener, NULL);
   free(line);
   free(sample);
   dds_delete(participant);
