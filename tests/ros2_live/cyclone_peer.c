@@ -7,6 +7,7 @@
 //   cloud STAMP_NS FRAME COUNT X Y Z...   at `points`
 //   initial X Y THETA
 //   map FILE.pgm RESOLUTION X Y YAW      as map_server does with black, white and grey
+//   await STAMP_NS                   goes on once a pose of this time or a later one was heard
 //   sample scan ... or cloud ...     what `ready` says meanwhile
 //   ready                            goes on once everybody is there
 // It prints "said STAMP_NS AT" of odometry, "scanned STAMP_NS AT" of scans, "matched SECONDS" once
@@ -45,12 +46,12 @@ static void rest(double seconds) {
   if (seconds > 0.0) dds_sleepfor((dds_duration_t)(seconds * 1e9));
 }
 
-static dds_qos_t* qos_of(int reliable, int latched) {
+static dds_qos_t* qos_of(int reliable, int latched, int kept) {
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        DDS_MSECS(100));
   dds_qset_durability(qos, latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, latched ? 1 : 1000);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, kept);
   if (latched) dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, 1, -1, -1, -1);
   return qos;
 }
@@ -59,7 +60,7 @@ static dds_entity_t writer(const char* name, const dds_topic_descriptor_t* type,
                            int latched) {
   dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
   must(topic, name);
-  dds_qos_t* qos = qos_of(reliable, latched);
+  dds_qos_t* qos = qos_of(reliable, latched, latched ? 1 : 1000);
   dds_entity_t made = dds_create_writer(participant, topic, qos, NULL);
   must(made, name);
   dds_delete_qos(qos);
@@ -70,7 +71,7 @@ static dds_entity_t reader(const char* name, const dds_topic_descriptor_t* type,
                            int latched) {
   dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
   must(topic, name);
-  dds_qos_t* qos = qos_of(reliable, latched);
+  dds_qos_t* qos = qos_of(reliable, latched, 1000);
   dds_entity_t made = dds_create_reader(participant, topic, qos, NULL);
   must(made, name);
   dds_delete_qos(qos);
@@ -95,8 +96,11 @@ static void print_tf(const void* sample) {
            t->transform.translation.y, t->transform.rotation.z, t->transform.rotation.w, now());
   }
 }
+static _Atomic long long newest_pose = -1;
+
 static void print_pose(const void* sample) {
   const geometry_msgs_msg_dds__PoseWithCovarianceStamped_* m = sample;
+  newest_pose = nanoseconds(&m->header.stamp);
   printf("pose %lld %s %.17g %.17g %.17g %.17g %.6g %.6g %.6f\n", nanoseconds(&m->header.stamp),
          m->header.frame_id, m->pose.pose.position.x, m->pose.pose.position.y,
          m->pose.pose.orientation.z, m->pose.pose.orientation.w, m->pose.covariance[0],
@@ -338,7 +342,9 @@ int main(int argc, char** argv) {
     if (sscanf(line, "scan %lld", &stamp) == 1 || sscanf(line, "cloud %lld", &stamp) == 1 ||
         sscanf(line, "odom %lld", &stamp) == 1) {
       if (first < 0) first = stamp;
-      while (now() - begin < 1e-9 * (double)(stamp - first) / pace) rest(0.001);
+      const double due = begin + 1e-9 * (double)(stamp - first) / pace;
+      while (now() < due) rest(0.001);
+      begin += now() - due;
     }
     if (sscanf(line, "static %255s %255s %lf %lf %lf", frame, child, &x, &y, &theta) == 5) {
       geometry_msgs_msg_dds__TransformStamped_ one = {
@@ -360,6 +366,10 @@ int main(int argc, char** argv) {
       m.pose.pose.orientation.z = sin(theta / 2), m.pose.pose.orientation.w = cos(theta / 2);
       m.pose.covariance[0] = m.pose.covariance[7] = 0.01, m.pose.covariance[35] = 0.003;
       must(dds_write(initial, &m), "initialpose");
+    } else if (sscanf(line, "await %lld", &stamp) == 1) {
+      fflush(stdout);
+      const double longest = 30.0;
+      for (const double since = now(); newest_pose < stamp && now() - since < longest;) rest(0.001);
     } else if (strncmp(line, "map ", 4) == 0) {
       say_map(maps, line);
     } else if (strncmp(line, "sample ", 7) == 0) {

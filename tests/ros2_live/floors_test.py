@@ -9,10 +9,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 from cdr import Reader, Writer
+from listening import Listening
 
 node, peer, client = map(pathlib.Path, sys.argv[1:])
 DOMAIN = 171 + os.getpid() % 30  # each test has domains of its own
@@ -104,55 +104,38 @@ class Robot:
 
     def __init__(self, environment):
         self.process = subprocess.Popen([peer, str(DOMAIN), str(PACE)], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        self.lines, self.ended, self.arrived = [], False, threading.Condition()
-        threading.Thread(target=self.listen, daemon=True).start()
+        self.listening = Listening(self.process.stdout)
         self.count, self.way, self.truth, self.best = 0, 0, {}, []
+        self.looked = 0  # lines that drives have looked at
         self.is_answered = False  # whether the node has answered the last scan
-
-    def listen(self):
-        for line in self.process.stdout:
-            with self.arrived:
-                self.lines.append(line.split())
-                self.arrived.notify_all()
-        with self.arrived:
-            self.ended = True
-            self.arrived.notify_all()
 
     def say(self, *lines):
         self.process.stdin.write("\n".join(lines) + "\n")
         self.process.stdin.flush()
 
-    def is_heard(self, words, since, timeout):
-        """Whether a line that begins with these words is among those that came after so many, or comes in time."""
-        seen = since
-
-        def is_there():
-            nonlocal seen
-            begin, seen = seen, len(self.lines)
-            return self.ended or any(one[:len(words)] == words for one in self.lines[begin:])
-        with self.arrived:
-            return self.arrived.wait_for(is_there, timeout) and not self.ended
+    def is_heard(self, words, since=0, timeout=LONGEST):
+        """Whether a line that begins with these words is among those after the first so many, or comes in time."""
+        return self.listening.waits_for(lambda line: line.split()[:len(words)] == list(words), since=since, timeout=timeout)
 
     def wait_for(self, *words, since=0):
-        expect(self.is_heard(list(words), since, LONGEST), "the robot does not say %s" % (words,))
+        expect(self.is_heard(words, since), "the robot does not say %s" % (words,))
 
     def heard(self, since=0):
-        with self.arrived:
-            return self.lines[since:]
+        return [line.split() for line in self.listening.since(since)]
 
     def scan(self, floor, stamp, pose):
         boxes = CABIN if floor == "cabin" else solids(floor)
         return "scan %d laser %r %r %g %d %s" % (stamp, -(BEAMS // 2) * STEP, STEP, FAR, BEAMS, " ".join(scan_of(boxes, pose)))
 
     def drive(self, floor, enough, what, stands=False):
-        """Drives or stands on a floor, or in a cabin, until what was heard meanwhile is enough.
+        """Drives or stands on a floor, or in a cabin, until what was heard since the last drive is enough.
 
         While the node answers scans, the next one is said once it has answered the last one: however busy the machine is, the node is never
         behind. While it searches for the robot it answers none, and the robot keeps its pace."""
-        begin = len(self.heard())
+        begin = self.looked
         end = time.monotonic() + LONGEST
         while time.monotonic() < end:
-            since = len(self.heard())
+            since = self.listening.count()
             self.count += 1
             self.way += not stands
             stamp = round((1000 + 0.1 * self.count) * 1e9)
@@ -164,6 +147,7 @@ class Robot:
             self.is_answered = answers and self.is_heard(["diagnostics", str(stamp)], since, 2.0)
             words = self.heard(begin)
             if enough(words):
+                self.looked = begin + len(words)
                 return words
         sys.exit("failed: %s; heard last %s" % (what, self.heard()[-40:]))
 
@@ -359,7 +343,7 @@ def run(folder, maps, words, what):
         robot.process.kill()
         services.process.kill()
         if log := os.environ.get("FLOORS_TEST_HEARD"):
-            pathlib.Path(log).write_text("\n".join(" ".join(one) for one in robot.lines) + "\n" + said)
+            pathlib.Path(log).write_text("\n".join(robot.listening.lines) + "\n" + said)
     expect(running.returncode == 0, said)
     return said
 

@@ -12,13 +12,14 @@ import sys
 import tempfile
 
 from cdr import Writer
+from listening import Listening
 
 ortung, node, peer, client, data = map(pathlib.Path, sys.argv[1:])
 LOG = data / "mrpt_uwb_ro"
 if not LOG.is_dir():
     print('live_test.py: Skipped\n"%s" is not here' % LOG)
     sys.exit(77)
-SECONDS, PACE = 40.0, 8.0
+SECONDS, PACE, FIRST_ONES = 40.0, 8.0, 10
 HERE = pathlib.Path(__file__).parent
 OFFSET = 2**31
 
@@ -60,6 +61,23 @@ def lines_of(record, robot):
     return lines
 
 
+def in_step(lines, expected):
+    """The same lines, which go on once the pose of a scan was heard that has one: however busy the machine is, the localizer is not behind.
+    A search for the robot goes on with each reading, so nothing waits for the first pose."""
+    stamps, newest, awaited, out = {us * 1000 for us, *_ in expected[1:]}, -1, None, []
+    for line in lines:
+        out.append(line)
+        kind, stamp, *_ = line.split(None, 2)
+        if kind == "odom":
+            newest = int(stamp)
+        if kind == "scan" and int(stamp) in stamps:
+            awaited = int(stamp)
+        if awaited is not None and newest >= awaited:  # readings wait for odometry of their time
+            out.append("await %d" % awaited)
+            awaited = None
+    return out
+
+
 RATE = math.radians(0.01)  # of a word of turning
 
 
@@ -80,6 +98,7 @@ def main():
             folder / "log.ortung", "--format", "json", "--out", folder / "poses.json")
         found = [json.loads(line) for line in (folder / "poses.json").read_text().splitlines()]
         expected = [[pose["stamp_us"], pose["x_m"], pose["y_m"], pose["theta_rad"]] for pose in found]  # all digits
+        lines = in_step(lines, expected)
 
         known = ["--robot", folder / "robot.toml", "--tables", folder / "log.ortung"]
         # Parameters of Nav2 as they are change nothing.
@@ -100,7 +119,9 @@ def main():
         (folder / "other.pgm").write_bytes(picture)  # one cell is another
         maps = ["map %s %s %s %s 0" % (file, yaml["resolution"], x, y) for file in (base.with_suffix(".pgm"), folder / "other.pgm")]
         third = len(lines) // 3
-        told = [maps[0], lines[0], "sample " + first, "ready", *lines[1:third], maps[1], *lines[third:2 * third], maps[0], *lines[2 * third:]]
+        learned = lambda times: ("the map is learned", times)  # the robot drives on while it is
+        told = [maps[0], lines[0], "sample " + first, "ready", *lines[1:third], maps[1], *lines[third:2 * third], learned(1), maps[0],
+                *lines[2 * third:-third // 3], learned(2), *lines[-third // 3:]]
         heard, said = live(folder, ["--folder", folder / "cache"], told, asked=[
             "wait 2.5", "call /amcl/set_parameters rcl_interfaces/srv/SetParameters " + set_count("max_particles", 5000),
             "call /request_nomotion_update std_srvs/srv/Empty " + Writer().number("B", 0).hex()])
@@ -152,26 +173,40 @@ def live(folder, arguments, lines, asked=()):
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1", "HOME": str(folder),
                    "CYCLONEDDS_URI": '<General><Interfaces><NetworkInterface name="lo" multicast="true"/></Interfaces>'
                                      "<AllowMulticast>true</AllowMulticast></General>"}
-    running = subprocess.Popen([str(word) for word in [node, "--base-frame", "base_link", *arguments]], env=environment,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    asking = subprocess.Popen([client, str(domain)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) if asked else None
-    if asking:
-        asking.stdin.write("\n".join(asked) + "\n")
-        asking.stdin.close()
-    try:
-        heard = subprocess.run([peer, str(domain), str(PACE)], input="\n".join(lines) + "\n", env=environment, capture_output=True,
-                               text=True, timeout=120)
-    finally:
-        running.send_signal(signal.SIGTERM)
-        said = running.communicate(timeout=30)
-    expect(heard.returncode == 0, heard.stderr + str(said))
+    with tempfile.TemporaryFile("w+") as complaints:
+        running = subprocess.Popen([str(word) for word in [node, "--base-frame", "base_link", *arguments]], env=environment,
+                                   stdout=subprocess.PIPE, stderr=complaints, text=True)
+        saying = Listening(running.stdout)
+        asking = subprocess.Popen([client, str(domain)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) if asked else None
+        if asking:
+            asking.stdin.write("\n".join(asked) + "\n")
+            asking.stdin.close()
+        try:
+            hearing = subprocess.Popen([peer, str(domain), str(PACE)], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                       stderr=complaints, text=True)
+            heard = Listening(hearing.stdout)
+            for line in lines:
+                if isinstance(line, tuple):
+                    hearing.stdin.flush()
+                    expect(saying.waits_for(lambda one, text=line[0]: text in one, line[1]), "%s, %d times: %s" % (*line, saying.lines))
+                else:
+                    hearing.stdin.write(line + "\n")
+            hearing.stdin.close()
+            hearing.wait(timeout=120)
+        finally:
+            hearing.kill()
+            running.send_signal(signal.SIGTERM)
+            running.wait(timeout=30)
+        complaints.seek(0)
+        said = "\n".join(saying.all()) + "\n", complaints.read()
+    expect(hearing.returncode == 0, "the robot ends with %s: %s" % (hearing.returncode, said))
     if asking:
         answers = asking.stdout.read().split("\n")[:-1]
         expect(asking.wait(timeout=30) == 0 and len(answers) + 1 == len(asked) and "none" not in answers, "answers: %s" % answers)
     expect(running.returncode == 0, "it ends with %s: %s" % (running.returncode, said))
     if log := os.environ.get("LIVE_TEST_HEARD"):
-        pathlib.Path(log).write_text(heard.stdout + str(said))
-    return [line.split() for line in heard.stdout.splitlines()], said
+        pathlib.Path(log).write_text("\n".join(heard.all()) + str(said))
+    return [line.split() for line in heard.all()], said
 
 
 def check(heard, expected, lines, said, tolerance=0.0, asked=0):
@@ -205,10 +240,12 @@ def check(heard, expected, lines, said, tolerance=0.0, asked=0):
     off = []
     for stamp, frame, cells, best, x, y in maps:
         expect(frame == "map" and int(cells) > 1000 and best == "100", "a map of %s cells in %s, at best %s" % (cells, frame, best))
-        if pose := found.get(int(stamp) // 1000):
+        # Those at the heading of the first poses may be poor ones.
+        if int(stamp) // 1000 in found and int(stamp) // 1000 >= expected[FIRST_ONES][0]:
+            pose = found[int(stamp) // 1000]
             off.append(math.hypot(float(x) - pose[0], float(y) - pose[1]))
     print("%d maps of likelihoods, best at most %.2f m from the robot" % (len(maps), max(off, default=0)))
-    expect(maps and sorted(off)[len(off) // 2] < 0.3, "likelihoods %s" % off)
+    expect(off and max(off) < 0.5, "likelihoods %s" % off)
     # A scan counts once odometry of its time is there, too.
     scanned, took = {int(stamp): float(at) for stamp, at in of("scanned")}, []
     for stamp, *_, at in poses:
