@@ -9,8 +9,8 @@ import sys
 import xml.etree.ElementTree as xml
 
 MOST = 3
-LIVE = re.compile(r"(mcl_served|served|server|conversation|client|web|devices|foxglove|refbox|mcl_player|hanging|app_devices|players|ros2_live)\."
-                  r"|app\.Served|e2e\.real_robot|e2e\.Serving")
+LIVE = re.compile(r"(mcl_served|served|server|conversation|client|web|devices|camera_device|scanners|foxglove|refbox|mcl_player|hanging|app_devices|"
+                  r"players|ros2_live|serving|clusters|page)\.|app\.(Served|Live|RefBox)|e2e\.(real_robot|three_ways)|ros2\.npm")
 
 
 def main():

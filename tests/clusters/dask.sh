@@ -13,14 +13,14 @@ export DASK_DISTRIBUTED__SCHEDULER__DASHBOARD__STATUS__TASK_STREAM_LENGTH=0 DASK
 /usr/bin/python3 "$project/examples/cluster/dask_sweep.py" sweep.toml many 6 > table.md 2> dask.log &
 launcher=$!
 victim=
-for _ in $(seq 400); do
+for _ in $(seq 2400); do
   victim=$(pgrep -f "^$program sweep run .*--dir $folder/many " | head -1 || true)
-  [[ -n $victim ]] && break
+  # It may be over by now.
+  [[ -n $victim ]] && worker=$(ps -o ppid= -p "$victim" | tr -d ' ') && [[ -n $worker ]] && kill -9 "$worker" "$victim" && break
+  victim=
   sleep 0.05
 done
 [[ -n $victim ]]
-worker=$(ps -o ppid= -p "$victim" | tr -d ' ')
-kill -9 "$worker" "$victim"
 echo "killed the worker $worker"
 wait "$launcher" || { tail -20 dask.log; exit 1; }
 check_sweep many

@@ -16,15 +16,17 @@ fail() { cat told; echo "$1"; exit 1; }
 # The table of a terminal: as the page shows it, but for numbers and how sure the pose is. Faults may be told behind a line.
 ortung emulate --robot maps/robots/laboratory.toml --world maps/fields/arena.toml --dev dev --wait > emulated 2>&1 &
 emulator=$!
-script -qec 'ortung robot maps/robots/laboratory.toml --dev dev --tables lab.ortung --duration 8' /dev/null < /dev/null > screen 2>&1 ||
-  { cat screen; echo "the robot fails at a terminal"; exit 1; }
 plain() { tr -d '\r' | sed -E 's/-?[0-9]+(\.[0-9]+)?/N/g; s/ +/ /g; s/ $//; s/degrees, [a-z]+$/degrees/'; }
-plain < screen > seen
 awk '/^```text$/ { shown = 1; next } /^```$/ { shown = 0 } shown' "$root/docs/real-robot.md" | plain > expected
 [ "$(wc -l < expected)" -ge 3 ] || fail "docs/real-robot.md shows no table"
-while read -r line; do
-  grep -qF -- "$line" seen || { cat screen; echo "docs/real-robot.md: no such line at a terminal: $line"; exit 1; }
-done < expected
+shows() { while read -r line; do grep -qF -- "$line" seen || { echo "$line"; return 1; }; done < expected; }
+for seconds in 8 20 60; do # a busy computer takes long to find devices, and where the robot is
+  script -qec "ortung robot maps/robots/laboratory.toml --dev dev --tables lab.ortung --duration $seconds" /dev/null < /dev/null > screen 2>&1 ||
+    { cat screen; echo "the robot fails at a terminal"; exit 1; }
+  plain < screen > seen
+  missing=$(shows) && break
+done
+[ -z "$missing" ] || { cat screen; echo "docs/real-robot.md: no such line at a terminal: $missing"; exit 1; }
 [ "$(wc -l < poses.txt)" -gt 50 ] || fail "too few poses"
 grep -q '^pose x .* tracking$' told || fail "the robot does not track"
 grep -q 'sick_lms /dev/ttyUSB1: absent' told || fail "nobody told that the scanner was unplugged"

@@ -107,7 +107,7 @@ def lead(robot, node_name):
     expect(change(robot, node_name, 1) and state_of(robot, node_name) == (2, "inactive"), "configure")
     expect(not change(robot, node_name, 4), "deactivate, though it is inactive")
     expect(change(robot, node_name, 3) and state_of(robot, node_name) == (3, "active"), "activate")
-    robot.tell("wait", "1")  # hearts beat
+    robot.tell("wait", "3")  # hearts beat ten times a second
     answer = robot.call(node_name + "/get_available_states", "lifecycle_msgs/srv/GetAvailableStates")
     expect(len(answer.list(lambda: state(answer))) == 11, "states")
     for service, count in (("get_available_transitions", 2), ("get_transition_graph", 28)):

@@ -37,7 +37,7 @@ std::string robot(const std::filesystem::path& video, const std::string& size) {
          size +
          ", focal_px = [60, 60] }\n"
          "device = { plugin = 'camera', port = '" +
-         video.string() + "', repeat = true }\n";
+         video.string() + "', repeat = true, late_after_s = 60 }\n";
 }
 
 /// The usual time [s] between pictures that follow one another in a video that is repeated. The
