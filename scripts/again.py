@@ -2,7 +2,7 @@
 """Which failed tests are run again, alone: again.py JUNIT.XML (of ctest --output-junit) prints their pattern for ctest -R.
 
 Programs that talk to each other by the machine's clock can fail where other work holds this machine up for seconds. A few of these get a second
-chance, by name, which scripts/test.sh tells. Anything else that fails has failed, and so has what fails in many places: exit code 1.
+chance, by name, which scripts/run-tests.sh tells. Anything else that fails has failed, and so has what fails in many places: exit code 1.
 """
 import re
 import sys

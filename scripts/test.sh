@@ -13,12 +13,4 @@ fi
 scripts/install-deps.sh
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset" -- -k 0
-status=0
-ctest --preset "$preset" -j "$(nproc)" --output-junit tests.xml "$@" || status=$?
-if ((status == 8)) && again=$(scripts/again.py "build/$preset/tests.xml"); then # 8: tests have failed
-  echo "again, alone: what failed beside other tests, and has threads or other programs"
-  ctest --preset "$preset" --output-junit again.xml -R "$again" && status=0
-  echo "UNSTEADY: $again failed; alone it has $( ((status == 0)) && echo passed || echo "failed, too")"
-fi
-scripts/skipped.py "build/$preset/tests.xml"
-exit $status
+scripts/run-tests.sh "$preset" "$@"
