@@ -277,6 +277,30 @@ TEST(Fit, GivesEveryReadingOneVoiceAndNoneToThoseThatTellNothing) {
   EXPECT_FALSE(even.fit({}));
 }
 
+TEST(Fit, IsTheSameFromLikelihoodsThatAreKnown) {
+  const Belief uneven([](std::size_t i) { return 1.0 + static_cast<double>(i % 7); });
+  std::size_t asked = 0;
+  const Answering some([&](float x) {
+    ++asked;
+    return -0.037F * x;
+  });
+  const Answering nothing([](float) { return -8.0F; });
+  std::vector<float> known(uneven.samples.size());
+  some.getProbability(uneven.samples.view(), known);
+  const auto fitOfKnown = [&](const std::vector<const Weigher*>& readings) {
+    return fitOf(readings, uneven.samples, uneven.weights, nullptr, known);
+  };
+  const auto fit = uneven.fit({&some});
+  EXPECT_GT(*fit, 0.1);
+  asked = 0;
+  EXPECT_EQ(fitOfKnown({&some}), fit);
+  EXPECT_EQ(asked, 0U) << "but for what a pose outside of the map is like";
+  // What several readings say together is not what each of them says.
+  EXPECT_EQ(fitOfKnown({&some, &nothing}), uneven.fit({&some, &nothing}));
+  known.pop_back();  // nor do these belong to the samples
+  EXPECT_EQ(fitOfKnown({&some}), fit);
+}
+
 TEST(FitsAt, IsTheFitOfABeliefInOnePose) {
   const Answering some([](float x) { return -0.37F * x; });
   const Answering nothing([](float) { return -8.0F; });

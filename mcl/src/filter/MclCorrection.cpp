@@ -124,14 +124,14 @@ Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicte
   Hypothesis::Said said = ask(moment, predicted);
   if (track->isBlind)
     track->recovery.followBlindly();
-  else if (const auto fit = fitOfBelief(moment, said.before))
+  else if (const auto fit = fitOfBelief(moment, said.before, said.logs))
     track->recovery.follow(*fit, track->travelled.all < tuning::trust::kStationary);
   std::optional<Rivals::Moment> compared = competition(moment, said);
   const double logEvidence = said.logEvidence;
-  std::vector<double> weights = predicted.drifted > 0
-                                    ? takeInUnsure(moment, std::move(said), predicted.drifted)
-                                    : takeIn(moment, said);
-  const double fit = fitOfBelief(moment, weights).value_or(0.0);
+  std::vector<double> weights =
+      predicted.drifted > 0 ? takeInUnsure(moment, std::exchange(said, {}), predicted.drifted)
+                            : takeIn(moment, said);
+  const double fit = fitOfBelief(moment, weights, said.logs).value_or(0.0);
   track->recovery.followBest(fit,
                              std::min(1.0, track->travelled.all / tuning::common::kIndependent));
   if (compared) compared->fit = fit;
@@ -140,9 +140,11 @@ Weighed Mcl::Impl::weigh(const std::vector<NewReading>& news, Predicted predicte
   return {std::move(moment), std::move(weights), std::move(compared), logEvidence};
 }
 
+/// @param logs ln p of the belief's samples, as far as it is known
 std::optional<double> Mcl::Impl::fitOfBelief(const Moment& moment,
-                                             const std::vector<double>& weights) {
-  return fitOf(readingsOf(*moment.news), track->belief.samples(), weights, &tools.workers);
+                                             const std::vector<double>& weights,
+                                             const std::vector<float>& logs) {
+  return fitOf(readingsOf(*moment.news), track->belief.samples(), weights, &tools.workers, logs);
 }
 
 /// Returns what alternatives are compared with, if readings fit the belief badly or there are
@@ -165,7 +167,7 @@ std::optional<Rivals::Moment> Mcl::Impl::competition(const Moment& moment,
 }
 
 /// Weighs the belief's samples. @returns their weights
-std::vector<double> Mcl::Impl::takeIn(const Moment& moment, const Hypothesis::Said& said) {
+std::vector<double> Mcl::Impl::takeIn(const Moment& moment, Hypothesis::Said& said) {
   return track->belief.takeIn(
       said, moment.evidence, tools.config, tools.config.resampleBelow > 0.0 ? kFewLeft : 0.0,
       [&] { return climbFor(*moment.news, said.before.size()); }, &tools.workers);

@@ -151,7 +151,7 @@ struct Mcl::Impl {
   void followFloor(const Pose2& before);
   void resample(const Estimated& estimated);
   std::optional<Rivals::Moment> competition(const Moment& moment, const Hypothesis::Said& said);
-  std::vector<double> takeIn(const Moment& moment, const Hypothesis::Said& said);
+  std::vector<double> takeIn(const Moment& moment, Hypothesis::Said& said);
   std::vector<double> takeInUnsure(const Moment& moment, Hypothesis::Said said,
                                    std::size_t drifted);
   SampleSet annealedOf(SampleSet samples, const Hypothesis::Said& said, const Moment& moment);
@@ -159,7 +159,8 @@ struct Mcl::Impl {
   bool letRivalLead(const Weighed& weighed);
   bool letDelayLead(const Led& led, const Weighed& weighed);
   Led ledBy(Moment moment, std::vector<double> weights);
-  std::optional<double> fitOfBelief(const Moment& moment, const std::vector<double>& weights);
+  std::optional<double> fitOfBelief(const Moment& moment, const std::vector<double>& weights,
+                                    const std::vector<float>& logs);
 };
 
 }  // namespace ortung

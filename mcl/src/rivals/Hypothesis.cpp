@@ -36,13 +36,14 @@ Hypothesis::Said Hypothesis::said(std::vector<float> logs, Workers* workers) con
   return said;
 }
 
-std::vector<double> Hypothesis::takeIn(const Said& said, const Evidence& evidence,
+std::vector<double> Hypothesis::takeIn(Said& said, const Evidence& evidence,
                                        const MclConfig& config, double below,
                                        const std::function<Climb()>& climb, Workers* workers) {
   for (std::size_t i = 0; i < said.logs.size(); ++i) samples_.logWeight[i] += said.logs[i];
   std::vector<double> after = weights(workers);
   if (!(effectiveSamples(after) < below)) return after;
   samples_ = climbed(said, evidence, config, climb());
+  said.logs.clear();
   return weights(workers);
 }
 

@@ -36,7 +36,7 @@ class ORTUNG_API Hypothesis {
   /// Likelihoods of one time step's readings, before the samples are weighed by them.
   struct Said {
     std::vector<double> before;  ///< weights so far, sum 1
-    std::vector<float> logs;     ///< ln p(readings | sample)
+    std::vector<float> logs;     ///< ln p(readings | sample); none once others are the samples
     double logEvidence = 0.0;    ///< ln p(readings | hypothesis)
     /// Returns ln p(readings) for a part of the samples alone.
     double logEvidenceOf(std::size_t first, std::size_t count) const;
@@ -88,7 +88,7 @@ class ORTUNG_API Hypothesis {
   ///   the likelihood, and the readings are annealed
   /// @param climb returns how to anneal; called only then
   /// @returns the weights, sum 1
-  std::vector<double> takeIn(const Said& said, const Evidence& evidence, const MclConfig& config,
+  std::vector<double> takeIn(Said& said, const Evidence& evidence, const MclConfig& config,
                              double below, const std::function<Climb()>& climb,
                              Workers* workers = nullptr);
   /// Calls ask() and takeIn(). @returns the likelihoods of ask()

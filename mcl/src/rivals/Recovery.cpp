@@ -13,20 +13,16 @@ namespace {
 
 using namespace tuning::recovery;
 
-/// Draws some samples by their weights. The last one is NaN, a pose outside of the map, whose
-/// likelihood is the floor of the sensor model.
-SampleSet witnessesOf(const SampleSet& samples, std::span<const double> weights, Workers* workers) {
-  SampleSet witnesses;
-  witnesses.resize(kWitnesses + 1);
-  const auto indices = lowVariance(weights, kWitnesses, 0.5, workers);
-  for (std::size_t k = 0; k < kWitnesses; ++k) {
-    witnesses.x[k] = samples.x[indices[k]];
-    witnesses.y[k] = samples.y[indices[k]];
-    witnesses.theta[k] = samples.theta[indices[k]];
-  }
-  witnesses.x.back() = witnesses.y.back() = std::numeric_limits<float>::quiet_NaN();
-  witnesses.theta.back() = 0.0F;
-  return witnesses;
+/// Draws some samples by their weights.
+std::vector<std::uint32_t> witnessesOf(std::span<const double> weights, Workers* workers) {
+  return lowVariance(weights, kWitnesses, 0.5, workers);
+}
+
+/// Makes the last pose one outside of the map (NaN), whose likelihood is the floor of the sensor
+/// model.
+void endOutside(SampleSet& poses) {
+  poses.x.back() = poses.y.back() = std::numeric_limits<float>::quiet_NaN();
+  poses.theta.back() = 0.0F;
 }
 
 /// Returns whether a reading can distinguish poses. @param floor ln p outside of the map
@@ -37,11 +33,32 @@ double explained(double mean, double floor) {
   return std::isfinite(mean) ? std::clamp(1.0 - mean / floor, 0.0, 1.0) : 0.0;
 }
 
+double meanOf(double sum) { return sum / static_cast<double>(kWitnesses); }
+
+/// Returns the fit of a reading whose likelihoods are known, but for that outside of the map.
+std::optional<double> fitOfKnown(const Weigher& reading, std::span<const float> known,
+                                 std::span<const double> weights, Workers* workers) {
+  SampleSet outside;
+  outside.resize(1);
+  endOutside(outside);
+  reading.getProbability(outside.view(), outside.logWeight);
+  const auto floor = static_cast<double>(outside.logWeight.back());
+  if (!isVoice(floor)) return std::nullopt;
+  double sum = 0.0;
+  for (const std::uint32_t i : witnessesOf(weights, workers)) sum += static_cast<double>(known[i]);
+  return explained(meanOf(sum), floor);
+}
+
 }  // namespace
 
 std::optional<double> fitOf(std::span<const Weigher* const> readings, const SampleSet& samples,
-                            std::span<const double> weights, Workers* workers) {
-  const SampleSet witnesses = witnessesOf(samples, weights, workers);
+                            std::span<const double> weights, Workers* workers,
+                            std::span<const float> known) {
+  if (readings.size() == 1 && known.size() == samples.size())
+    return fitOfKnown(*readings.front(), known, weights, workers);
+  SampleSet witnesses = taken(samples, witnessesOf(weights, workers));
+  witnesses.resize(kWitnesses + 1);
+  endOutside(witnesses);
   double sum = 0.0;
   double voices = 0.0;
   std::vector<float> logs(witnesses.size());
@@ -50,9 +67,7 @@ std::optional<double> fitOf(std::span<const Weigher* const> readings, const Samp
     reading->getProbability(witnesses.view(), logs);
     const auto floor = static_cast<double>(logs.back());
     if (!isVoice(floor)) continue;
-    const double mean =
-        std::accumulate(logs.begin(), logs.end() - 1, 0.0) / static_cast<double>(kWitnesses);
-    sum += explained(mean, floor);
+    sum += explained(meanOf(std::accumulate(logs.begin(), logs.end() - 1, 0.0)), floor);
     voices += 1.0;
   }
   if (voices == 0.0) return std::nullopt;
@@ -68,8 +83,7 @@ std::vector<double> fitsAt(std::span<const Weigher* const> readings, std::span<c
     set.y[i] = static_cast<float>(poses[i].y);
     set.theta[i] = static_cast<float>(poses[i].theta);
   }
-  set.x.back() = set.y.back() = std::numeric_limits<float>::quiet_NaN();
-  set.theta.back() = 0.0F;
+  endOutside(set);
   std::vector<double> fits(n, 0.0);
   double voices = 0.0;
   for (const Weigher* reading : readings) {

@@ -18,9 +18,12 @@ class Workers;
 /// map; nothing if no reading can distinguish a pose from that. Every reading has the same weight:
 /// a scan of many beams must not outvote the landmarks that contradict it.
 /// @param weights weights of the samples, with sum 1
+/// @param known ln p(readings | sample) of each sample, if that is known: a single reading is then
+///   not asked again
 ORTUNG_API std::optional<double> fitOf(std::span<const Weigher* const> readings,
                                        const SampleSet& samples, std::span<const double> weights,
-                                       Workers* workers = nullptr);
+                                       Workers* workers = nullptr,
+                                       std::span<const float> known = {});
 
 /// Returns the same for the belief that the robot is at one of these poses, for each of them; zero
 /// if no reading can distinguish a pose from one outside of the map.
