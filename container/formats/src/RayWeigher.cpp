@@ -26,6 +26,26 @@ constexpr double kMostEntriesALevel = 3.9;  ///< most entries of the table of co
 
 double square(double value) { return value * value; }
 
+/// Fetches so many lines of a row into the caches: few, as a rule, and the same number each time.
+ORTUNG_INLINE void fetch(const std::uint8_t* row, std::size_t lines) {
+  switch (lines) {
+    default:
+      for (; lines > 4; --lines) __builtin_prefetch(row + (lines - 1) * kCacheLine);
+      [[fallthrough]];
+    case 4:
+      __builtin_prefetch(row + 3 * kCacheLine);
+      [[fallthrough]];
+    case 3:
+      __builtin_prefetch(row + 2 * kCacheLine);
+      [[fallthrough]];
+    case 2:
+      __builtin_prefetch(row + kCacheLine);
+      [[fallthrough]];
+    case 1:
+      __builtin_prefetch(row);
+  }
+}
+
 /// Computes where samples look into the ray table, a block of them at a time, without branches and
 /// calls, so that the compiler vectorizes it.
 struct RayPlaces {
@@ -241,6 +261,7 @@ void RayWeigher::weighBetweenCells(const SampleView& poses, std::span<float> log
   const std::int32_t last = rays_->directions() - 1;
   DirectionCorners corners(*rays_, firstAngle_);
   WrappedRows wrapped(run_, rays_->directions());
+  const std::size_t lines = run_ / kCacheLine + 1;
   const std::size_t padded = levels_.size();
   const std::size_t whole =
       (run_ + LevelDifferences::kBlock - 1) / LevelDifferences::kBlock * LevelDifferences::kBlock;
@@ -271,9 +292,7 @@ void RayWeigher::weighBetweenCells(const SampleView& poses, std::span<float> log
             logProbability[first + k] += floor;
             continue;
           }
-          for (const std::uint8_t* row : levels.rows)
-            for (std::size_t line = 0; line <= run_; line += kCacheLine)
-              __builtin_prefetch(row + line);
+          for (const std::uint8_t* row : levels.rows) fetch(row, lines);
           block.isLast[block.size] = corners.direction(k) == last;
           block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
         }

@@ -58,16 +58,20 @@ class ORTUNG_API DirectionCorners {
 
   /// Returns whether the table expects anything there, and what.
   bool around(std::size_t k, LevelsAround& levels) const {
-    const std::uint8_t* own = corners_.own(k) < 0 ? nullptr : table_.rowOfCell(corners_.own(k));
-    if (own == nullptr) return false;
+    const std::int32_t* const rowOf = table_.rowIndex().data();
+    const std::int32_t cell = corners_.own(k);
+    const std::int32_t own = cell < 0 ? -1 : rowOf[cell];
+    if (own < 0) return false;
+    const std::uint8_t* const from = table_.levels().data() + direction_[k];
+    const std::size_t stride = table_.stride();
     const std::int32_t lowest = corners_.lowest(k);
-    const std::array<std::int32_t, LevelsAround::kCells> cells = {
-        lowest, lowest + corners_.right(), lowest + corners_.up(),
-        lowest + corners_.up() + corners_.right()};
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::uint8_t* row = table_.rowOfCell(cells[c]);
-      levels.rows[c] = (row == nullptr ? own : row) + direction_[k];
-    }
+    const std::int32_t above = lowest + corners_.up();
+    const auto rowAt = [&](std::int32_t one) {
+      const std::int32_t row = rowOf[one];
+      return from + static_cast<std::size_t>(row < 0 ? own : row) * stride;
+    };
+    levels.rows = {rowAt(lowest), rowAt(lowest + corners_.right()), rowAt(above),
+                   rowAt(above + corners_.right())};
     for (std::size_t w = 0; w < kWords; ++w)
       std::memcpy(levels.weights.data() + w * kBytes, &weights_[w][k], kBytes);
     return true;
