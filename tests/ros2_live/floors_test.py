@@ -223,6 +223,15 @@ def is_on(name, poses=15):
     return lambda words: ["floor", name] in words and count(words, "pose") >= poses
 
 
+def check_likelihoods(robot, floor):
+    """Likelihoods, at most one a second, are in the floor's frame. They are those at the heading of the estimate, which has to be a good one."""
+    robot.best, since = [], max(robot.truth) + 1
+    words = robot.drive(floor, lambda words: sum(one[0] == "likelihood" and int(one[1]) >= since for one in words) >= 2, "likelihoods")
+    robot.check(words, since)
+    expect(len(robot.best) >= 2 and max(robot.best) < 0.3, "the best likelihoods are %s m beside the robot" % robot.best)
+    print("%s: the best likelihoods are at most %.3f m beside the truth" % (floor, max(robot.best)))
+
+
 def visit(robot, services, maps, folder):
     # It stands on the first floor, and nobody says so.
     words = robot.drive("first", lambda words: is_on("first")(words) and told_map(maps["first"]) in robot.heard(), "found on the first floor")
@@ -238,12 +247,7 @@ def visit(robot, services, maps, folder):
     words = robot.drive("first", lambda words: count(words, "pose") >= 10, "poses after an initial pose")
     robot.check(words)
     expect(["floor", "ground"] not in words, "an initial pose is one on the present floor")
-    # Likelihoods, at most one a second, are in the floor's frame, and those at the estimate's heading, which is a good one by now.
-    robot.best, since = [], max(robot.truth) + 1
-    words = robot.drive("first", lambda words: sum(one[0] == "likelihood" and int(one[1]) >= since for one in words) >= 2, "likelihoods")
-    robot.check(words, since)
-    expect(len(robot.best) >= 2 and max(robot.best) < 0.3, "the best likelihoods are %s m beside the robot" % robot.best)
-    print("the best likelihoods are at most %.3f m beside the truth" % max(robot.best))
+    check_likelihoods(robot, "first")
 
     # A floor is named, by its name or by its map.
     for floor, url in (("ground", "ground"), ("first", "file://%s" % (folder / "first.yaml")), ("ground", str(folder / "maps" / ".." / "ground.yaml"))):
@@ -253,6 +257,7 @@ def visit(robot, services, maps, folder):
         words = robot.drive(floor, lambda words, floor=floor: is_on(floor, 10)(words) and told_map(maps[floor]) in words, "on the floor %s" % floor)
         robot.check(words, since)
         print("%s: at most %.3f m beside the truth" % (url.split("/")[-1], robot.worst))
+    check_likelihoods(robot, "ground")
 
     # What is no map of the building.
     (folder / "none.yaml").write_text("resolution: many\n")
@@ -271,6 +276,7 @@ def visit(robot, services, maps, folder):
     robot.drive("ground", lambda words: told_map(maps["attic"]) in words, "the map of the attic")
     words = robot.drive("attic", lambda words: count(words, "pose") >= 10, "poses in the attic")
     robot.check(words)
+    check_likelihoods(robot, "attic")
     expect(services.load("first")[0] == 0, "back in the building")
     robot.drive("attic", lambda words: told_map(maps["first"]) in words and ["floor", "first"] in words, "the first floor's map")
     words = robot.drive("first", lambda words: count(words, "pose") >= 10, "poses on the first floor")

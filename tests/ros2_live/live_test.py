@@ -245,7 +245,7 @@ def check(heard, expected, lines, said, tolerance=0.0, asked=0):
             pose = found[int(stamp) // 1000]
             off.append(math.hypot(float(x) - pose[0], float(y) - pose[1]))
     print("%d maps of likelihoods, best at most %.2f m from the robot" % (len(maps), max(off, default=0)))
-    expect(off and max(off) < 0.5, "likelihoods %s" % off)
+    expect(off and max(off) < 0.3, "likelihoods %s" % off)
     # A scan counts once odometry of its time is there, too.
     scanned, took = {int(stamp): float(at) for stamp, at in of("scanned")}, []
     for stamp, *_, at in poses:

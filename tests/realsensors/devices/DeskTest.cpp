@@ -75,15 +75,6 @@ struct DeskOfBase : testing::Test {
       EXPECT_EQ(message.words, *at++);
     }
   }
-  /// Whether words came in the order in which they were given, of which some may be left out.
-  void expectInOrder(const std::vector<Message>& messages) {
-    const auto given = source.given(messages.front().id);
-    auto at = given.begin();
-    for (const Message& message : messages) {
-      at = std::find(at, given.end(), message.words);
-      ASSERT_NE(at++, given.end());
-    }
-  }
   /// Reads on: no reading of the compass is missing since the first one that came meanwhile.
   void expectCompassWentOn(const std::map<std::string, std::vector<Message>>& meanwhile) {
     const auto found = meanwhile.find(toText(kCompass));
@@ -234,7 +225,7 @@ TEST_F(DeskTest, AFloodedDeviceIsLateUntilItDropsWhatWaits) {
   expectCompassWentOn(desk.readUntil(0, [](const DeviceStatus& status) {
     return status.late > 10 && status.state == DeviceState::kRunning;
   }));
-  expectInOrder(desk.read(kWheels, 10));
+  expectAsGiven(desk.read(kWheels, 10));
   EXPECT_GT(devices.status()[0].late, 10U);
   EXPECT_EQ(devices.status()[0].clockJumps, 0U);
   EXPECT_EQ(devices.status()[0].openings, 1U);
