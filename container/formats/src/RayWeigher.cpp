@@ -208,6 +208,7 @@ void RayWeigher::weighByCells(const SampleView& poses, std::span<float> logProba
   const std::int32_t* rowOf = rays_->rowIndex().data();
   const std::uint8_t* levels = rays_->levels().data();
   RayPlaces places;
+  const std::size_t lines = (run_ + kCacheLine - 1) / kCacheLine;
   const CellLookup lookup(rays_->grid());
   // Two blocks take turns: the rows of one are fetched while the other's costs are added up.
   struct Block {
@@ -237,8 +238,7 @@ void RayWeigher::weighByCells(const SampleView& poses, std::span<float> logProba
           }
           const std::uint8_t* from = levels + static_cast<std::size_t>(row) * rays_->stride() +
                                      static_cast<std::size_t>(places.direction[k]);
-          for (std::size_t line = 0; line < run_; line += kCacheLine)
-            __builtin_prefetch(from + line);
+          fetch(from, lines);
           __builtin_prefetch(from + run_ - 1);
           block.rows[block.size] = from;
           block.sampleOf[block.size++] = static_cast<std::uint32_t>(first + k);
